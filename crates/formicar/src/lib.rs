@@ -1,0 +1,23 @@
+//! Path planning for car-like robots on occupancy grids, with a certificate for every path.
+//!
+//! A robot with a steering axle cannot turn on the spot, and its body scrapes corners. Given an
+//! occupancy grid, a [`vehicle::Vehicle`] and two poses, formicar returns a path that the vehicle
+//! can drive, proven by a [`validation::Certificate`], or a named reason why there is none.
+//!
+//! Modules are ranked: each uses only those above it in this list. SI units and radians inside;
+//! a pose is the centre of the rear axle, x forward, y left, heading counter-clockwise.
+#![forbid(unsafe_code)]
+
+pub mod collision;
+pub mod geometry;
+pub mod map;
+pub mod metrics;
+pub mod numeric;
+pub mod path;
+pub mod planner;
+pub mod progress;
+pub mod render;
+pub mod scenario;
+pub mod search;
+pub mod validation;
+pub mod vehicle;

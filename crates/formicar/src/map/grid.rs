@@ -1,0 +1,215 @@
+//! The occupancy grid and what can be wrong with one.
+
+use super::{BitGrid, Cell, GridFrame};
+use crate::geometry::{Point2, Pose2};
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+pub use super::frame::MAX_CELLS;
+
+/// Value of a free cell.
+pub const FREE: i8 = 0;
+/// Value of an occupied (lethal) cell.
+pub const OCCUPIED: i8 = 100;
+/// Value of an unknown cell.
+pub const UNKNOWN: i8 = -1;
+
+/// What is wrong with a map.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum MapError {
+    /// No cells.
+    #[error("the map has {n_cols} x {n_rows} cells; at least 1 x 1 is needed")]
+    Empty {
+        /// Columns given.
+        n_cols: usize,
+        /// Rows given.
+        n_rows: usize,
+    },
+    /// Too many cells.
+    #[error(
+        "the map has {n_cols} x {n_rows} cells; the limit is {MAX_CELLS} in all; hint: crop it or use a coarser resolution"
+    )]
+    TooLarge {
+        /// Columns given.
+        n_cols: usize,
+        /// Rows given.
+        n_rows: usize,
+    },
+    /// A resolution that is no length.
+    #[error("resolution {resolution_m} m per cell; it must be a positive finite number")]
+    BadResolution {
+        /// The resolution given.
+        resolution_m: f64,
+    },
+    /// An origin that is no pose.
+    #[error("origin ({x}, {y}, {yaw}); all three must be finite numbers")]
+    BadOrigin {
+        /// Metres.
+        x: f64,
+        /// Metres.
+        y: f64,
+        /// Radians.
+        yaw: f64,
+    },
+    /// As many values as cells are needed.
+    #[error("{n_values} cell values for {n_cols} x {n_rows} cells")]
+    WrongCellCount {
+        /// Values given.
+        n_values: usize,
+        /// Columns.
+        n_cols: usize,
+        /// Rows.
+        n_rows: usize,
+    },
+    /// A value outside -1..=100.
+    #[error("cell ({}, {}) has value {value}; allowed are -1 (unknown) and 0 (free) to 100 (occupied)", cell.col, cell.row)]
+    BadValue {
+        /// Where.
+        cell: Cell,
+        /// The value found.
+        value: i8,
+    },
+}
+
+/// How unknown cells count.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum UnknownPolicy {
+    /// As free ground.
+    Free,
+    /// As obstacles.
+    #[default]
+    Occupied,
+}
+
+/// A map of square cells: -1 unknown, 0 free, 1 to 99 graded, 100 occupied.
+///
+/// Only cells at 100 and unknown cells stop a vehicle; graded values are preferences at most.
+/// Values are row-major with row 0 at the bottom, as in a ROS `OccupancyGrid` message.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OccupancyGrid {
+    frame: GridFrame,
+    values: Vec<i8>,
+}
+
+impl OccupancyGrid {
+    /// A grid from its values.
+    ///
+    /// # Errors
+    /// As many values as cells, each in -1..=100, are needed.
+    pub fn new(frame: GridFrame, values: Vec<i8>) -> Result<Self, MapError> {
+        if values.len() != frame.n_cells() {
+            let (n_cols, n_rows) = (frame.n_cols(), frame.n_rows());
+            return Err(MapError::WrongCellCount {
+                n_values: values.len(),
+                n_cols,
+                n_rows,
+            });
+        }
+        match values
+            .iter()
+            .position(|v| !(UNKNOWN..=OCCUPIED).contains(v))
+        {
+            Some(i) => Err(MapError::BadValue {
+                cell: frame.cell(i),
+                value: values[i],
+            }),
+            None => Ok(Self { frame, values }),
+        }
+    }
+
+    /// A grid whose cells are all free.
+    pub fn free(frame: GridFrame) -> Self {
+        let values = vec![FREE; frame.n_cells()];
+        Self { frame, values }
+    }
+
+    /// A grid with origin (0, 0, 0) from rows of text, first row on top: `#` is occupied, `?`
+    /// unknown, anything else free. For tests, examples and built-in maps.
+    ///
+    /// # Errors
+    /// Rows of unequal length, no cells, or a bad resolution.
+    pub fn from_rows(rows: &[&str], resolution_m: f64) -> Result<Self, MapError> {
+        let n_cols = rows.first().map_or(0, |row| row.chars().count());
+        let frame = GridFrame::new(n_cols, rows.len(), resolution_m, Pose2::default())?;
+        let value = |c| match c {
+            '#' => OCCUPIED,
+            '?' => UNKNOWN,
+            _ => FREE,
+        };
+        Self::new(
+            frame,
+            rows.iter()
+                .rev()
+                .flat_map(|row| row.chars().map(value))
+                .collect(),
+        )
+    }
+
+    /// Size, resolution and origin.
+    pub fn frame(&self) -> &GridFrame {
+        &self.frame
+    }
+
+    /// All values, row-major, row 0 (bottom) first.
+    pub fn values(&self) -> &[i8] {
+        &self.values
+    }
+
+    /// The value of a cell.
+    pub fn value(&self, cell: Cell) -> i8 {
+        self.values[self.frame.index(cell)]
+    }
+
+    /// Sets the value of a cell; it must be in -1..=100.
+    pub fn set(&mut self, cell: Cell, value: i8) {
+        debug_assert!((UNKNOWN..=OCCUPIED).contains(&value));
+        let index = self.frame.index(cell);
+        self.values[index] = value;
+    }
+
+    /// The same map with unknown cells decided; without this they count as occupied.
+    #[must_use]
+    pub fn with_unknown(mut self, policy: UnknownPolicy) -> Self {
+        let decided = match policy {
+            UnknownPolicy::Free => FREE,
+            UnknownPolicy::Occupied => OCCUPIED,
+        };
+        for value in &mut self.values {
+            if *value == UNKNOWN {
+                *value = decided;
+            }
+        }
+        self
+    }
+
+    /// Whether a cell stops the vehicle: occupied or unknown.
+    pub fn is_lethal(&self, cell: Cell) -> bool {
+        lethal(self.value(cell))
+    }
+
+    /// The lethal cells as bits.
+    pub fn lethal_cells(&self) -> BitGrid {
+        let mut bits = BitGrid::new(self.frame.n_cols(), self.frame.n_rows());
+        for (row, values) in self.values.chunks_exact(self.frame.n_cols()).enumerate() {
+            for (word, chunk) in bits.row_mut(row).iter_mut().zip(values.chunks(64)) {
+                *word = chunk
+                    .iter()
+                    .enumerate()
+                    .fold(0, |word, (i, &v)| word | u64::from(lethal(v)) << i);
+            }
+        }
+        bits
+    }
+
+    /// Sets every cell that a polygon's inside or boundary touches; corners in world metres, in
+    /// order, convex or not.
+    pub fn fill_polygon(&mut self, corners: &[Point2], value: i8) {
+        super::raster::touched_cells(&self.frame, corners, |index| self.values[index] = value);
+    }
+}
+
+fn lethal(value: i8) -> bool {
+    !(0..OCCUPIED).contains(&value)
+}

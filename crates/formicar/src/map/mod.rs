@@ -1,0 +1,12 @@
+//! Occupancy grids: what is known of the ground, in a ROS frame.
+
+mod bit_grid;
+mod cell;
+mod frame;
+mod grid;
+mod raster;
+
+pub use bit_grid::BitGrid;
+pub use cell::Cell;
+pub use frame::GridFrame;
+pub use grid::{FREE, MAX_CELLS, MapError, OCCUPIED, OccupancyGrid, UNKNOWN, UnknownPolicy};

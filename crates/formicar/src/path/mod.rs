@@ -1,0 +1,29 @@
+//! Paths, one type per stage of planning: cells, way points, drivable curves.
+
+mod curve_path;
+
+pub use curve_path::{CurvePath, CurveSegment, Direction, PathPose};
+
+use crate::geometry::Point2;
+use crate::map::Cell;
+
+/// A chain of neighbouring cells, from start to goal.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct GridPath {
+    /// The cells in order.
+    pub cells: Vec<Cell>,
+}
+
+/// A polyline, from start to goal.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WaypointPath {
+    /// The corners in order, metres.
+    pub points: Vec<Point2>,
+}
+
+impl WaypointPath {
+    /// Length in metres.
+    pub fn length_m(&self) -> f64 {
+        self.points.windows(2).map(|w| w[0].distance(w[1])).sum()
+    }
+}

@@ -1,0 +1,182 @@
+//! How a run is watched, timed, limited and stopped; how it may end.
+
+use serde::{Deserialize, Serialize};
+use std::time::Duration;
+
+/// Watches a run: it sees events, lends its clock, and may cancel.
+///
+/// `()` watches nothing, has no clock and never cancels.
+pub trait Observer {
+    /// Something happened.
+    fn on_event(&mut self, _event: &Event) {}
+
+    /// Time since the query began, if the observer has a clock; deadlines need one.
+    fn elapsed(&mut self) -> Option<Duration> {
+        None
+    }
+
+    /// Whether the caller wants the run to stop.
+    fn is_cancelled(&mut self) -> bool {
+        false
+    }
+}
+
+impl Observer for () {}
+
+/// What a run tells its observer.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Event {
+    /// The map is ready for queries.
+    MapReady,
+    /// The fields of the query are ready and the search begins.
+    SearchStarted,
+    /// Search steps done so far; sent every few hundred steps.
+    Progress {
+        /// Steps so far.
+        n_steps: u64,
+    },
+    /// A certified path, first or better than the last.
+    Improved {
+        /// Its length in metres.
+        length_m: f64,
+        /// Search steps so far.
+        n_steps: u64,
+    },
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    /// A certified path.
+    Found,
+    /// The search space holds no path.
+    NoPath,
+    /// The search found a path that the judge refused.
+    Infeasible,
+    /// The step budget ran out first.
+    BudgetExhausted,
+    /// The deadline passed first.
+    TimedOut,
+    /// The caller cancelled.
+    Cancelled,
+}
+
+impl Status {
+    /// The word used in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Found => "found",
+            Self::NoPath => "no_path",
+            Self::Infeasible => "infeasible",
+            Self::BudgetExhausted => "budget_exhausted",
+            Self::TimedOut => "timed_out",
+            Self::Cancelled => "cancelled",
+        }
+    }
+}
+
+/// Counts steps against a budget and, now and then, looks at clock and cancel flag.
+pub struct Limits<'a> {
+    observer: &'a mut dyn Observer,
+    budget_steps: Option<u64>,
+    deadline: Option<Duration>,
+    n_steps: u64,
+}
+
+impl<'a> Limits<'a> {
+    /// Steps between two looks at the clock.
+    const STRIDE: u64 = 256;
+
+    /// Limits of one query.
+    pub fn new(
+        observer: &'a mut dyn Observer,
+        budget_steps: Option<u64>,
+        deadline: Option<Duration>,
+    ) -> Self {
+        Self {
+            observer,
+            budget_steps,
+            deadline,
+            n_steps: 0,
+        }
+    }
+
+    /// Counts a step.
+    ///
+    /// # Errors
+    /// The status to end with: budget, deadline or cancel.
+    pub fn step(&mut self) -> Result<(), Status> {
+        if self
+            .budget_steps
+            .is_some_and(|budget| self.n_steps >= budget)
+        {
+            return Err(Status::BudgetExhausted);
+        }
+        self.n_steps += 1;
+        if self.n_steps % Self::STRIDE == 1 {
+            return self.look();
+        }
+        Ok(())
+    }
+
+    /// Looks at the cancel flag and the clock now.
+    ///
+    /// # Errors
+    /// The status to end with: deadline or cancel.
+    pub fn look(&mut self) -> Result<(), Status> {
+        if self.observer.is_cancelled() {
+            return Err(Status::Cancelled);
+        }
+        let late = |deadline| self.observer.elapsed().is_some_and(|now| now >= deadline);
+        if self.deadline.is_some_and(late) {
+            return Err(Status::TimedOut);
+        }
+        self.observer.on_event(&Event::Progress {
+            n_steps: self.n_steps,
+        });
+        Ok(())
+    }
+
+    /// Tells the observer something.
+    pub fn tell(&mut self, event: &Event) {
+        self.observer.on_event(event);
+    }
+
+    /// Steps counted so far.
+    pub fn n_steps(&self) -> u64 {
+        self.n_steps
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Stopwatch(u64);
+
+    impl Observer for Stopwatch {
+        fn elapsed(&mut self) -> Option<Duration> {
+            self.0 += 1;
+            Some(Duration::from_secs(self.0))
+        }
+    }
+
+    #[test]
+    fn a_budget_of_n_allows_n_steps() {
+        let mut nobody = ();
+        let mut limits = Limits::new(&mut nobody, Some(3), None);
+        assert!((0..3).all(|_| limits.step().is_ok()));
+        assert_eq!(limits.step(), Err(Status::BudgetExhausted));
+        assert_eq!(limits.n_steps(), 3);
+    }
+
+    #[test]
+    fn a_deadline_is_seen_between_strides() {
+        let mut watch = Stopwatch(0);
+        let mut limits = Limits::new(&mut watch, None, Some(Duration::from_secs(3)));
+        let n_ok = (0..10_000).take_while(|_| limits.step().is_ok()).count() as u64;
+        assert_eq!(n_ok, 2 * Limits::STRIDE);
+    }
+}

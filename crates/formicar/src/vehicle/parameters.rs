@@ -1,0 +1,82 @@
+//! A vehicle as users write it down.
+
+use crate::geometry::Point2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The measures of a vehicle, as in a vehicle file; [`super::Vehicle::new`] checks them.
+///
+/// Either the five lengths give a rectangle, or `footprint` gives any convex polygon. One of
+/// `max_steer_rad` (or `max_steer_deg`) and `min_turning_radius_m` sets the steering limit; where
+/// both stand they must agree to 1 %.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct VehicleParameters {
+    /// Distance between the axles, metres, above 0. May be left out where a footprint and a
+    /// turning radius are given; steering angles are then unknown.
+    #[serde(alias = "wheelbase", skip_serializing_if = "Option::is_none")]
+    pub wheelbase_m: Option<f64>,
+    /// Distance between the wheels of an axle, metres, above 0; default 0.8 of the width.
+    #[serde(alias = "track_width", skip_serializing_if = "Option::is_none")]
+    pub track_width_m: Option<f64>,
+    /// From the front axle to the front end, metres, at least 0.
+    #[serde(alias = "front_overhang", skip_serializing_if = "Option::is_none")]
+    pub front_overhang_m: Option<f64>,
+    /// From the rear axle to the rear end, metres, at least 0.
+    #[serde(alias = "rear_overhang", skip_serializing_if = "Option::is_none")]
+    pub rear_overhang_m: Option<f64>,
+    /// Width of the body, metres, above 0.
+    #[serde(alias = "width", skip_serializing_if = "Option::is_none")]
+    pub width_m: Option<f64>,
+    /// The body as a polygon around the rear axle instead: a list of `[x, y]`, or a ROS string
+    /// `"[[x1, y1], [x2, y2], ...]"`; at least 3 points, made convex.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub footprint: Option<FootprintSpec>,
+    /// Largest steering angle of the virtual middle wheel, radians, in (0, pi/2).
+    #[serde(alias = "max_steer", skip_serializing_if = "Option::is_none")]
+    pub max_steer_rad: Option<f64>,
+    /// The same in degrees, in (0, 90).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_steer_deg: Option<f64>,
+    /// Smallest turning radius of the rear-axle centre, metres, above 0.
+    #[serde(
+        alias = "min_turning_radius",
+        alias = "r_min",
+        skip_serializing_if = "Option::is_none"
+    )]
+    pub min_turning_radius_m: Option<f64>,
+    /// Grows the footprint on every side, metres, at least 0; default 0.
+    #[serde(alias = "safety_margin", skip_serializing_if = "Option::is_none")]
+    pub safety_margin_m: Option<f64>,
+    /// Fastest change of the steering angle, radians per second, above 0.
+    #[serde(alias = "max_steer_rate", skip_serializing_if = "Option::is_none")]
+    pub max_steer_rate_rad_per_s: Option<f64>,
+    /// Driving speed, metres per second, above 0.
+    #[serde(alias = "speed", skip_serializing_if = "Option::is_none")]
+    pub speed_mps: Option<f64>,
+}
+
+/// A footprint as a list of points or as the string that ROS configurations hold.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum FootprintSpec {
+    /// Corner points `[x, y]`, metres.
+    Points(Vec<[f64; 2]>),
+    /// `"[[x1, y1], [x2, y2], ...]"`, metres.
+    RosString(String),
+}
+
+impl FootprintSpec {
+    /// The points, or what is wrong with the string.
+    ///
+    /// # Errors
+    /// The string is no JSON list of number pairs.
+    pub fn points(&self) -> Result<Vec<Point2>, String> {
+        let pairs = match self {
+            Self::Points(pairs) => pairs.clone(),
+            Self::RosString(text) => serde_json::from_str::<Vec<[f64; 2]>>(text)
+                .map_err(|e| format!("{e}; expected [[x1, y1], [x2, y2], ...]"))?,
+        };
+        Ok(pairs.into_iter().map(|[x, y]| Point2::new(x, y)).collect())
+    }
+}

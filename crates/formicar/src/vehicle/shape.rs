@@ -1,0 +1,364 @@
+//! A checked vehicle: footprint, steering limit, and what both imply.
+
+use super::VehicleParameters;
+use crate::geometry::{ConvexPolygon, Point2, PolygonError};
+use std::f64::consts::FRAC_PI_2;
+use thiserror::Error;
+use xxhash_rust::xxh3::xxh3_128;
+
+/// What is wrong with a vehicle.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum VehicleError {
+    /// A measure outside its range.
+    #[error("vehicle {name} = {value}; it must be {range}")]
+    OutOfRange {
+        /// The measure.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What is allowed.
+        range: &'static str,
+    },
+    /// A measure is missing.
+    #[error("vehicle {name} is missing; hint: {hint}")]
+    Missing {
+        /// The measure.
+        name: &'static str,
+        /// What to give.
+        hint: &'static str,
+    },
+    /// Two statements of the steering limit.
+    #[error(
+        "min_turning_radius_m = {radius_m} and max_steer ({steer_rad} rad, so {implied_m} m) disagree by more than 1 %; hint: give one of them"
+    )]
+    LimitsDisagree {
+        /// Radius given, metres.
+        radius_m: f64,
+        /// Steering limit given, radians.
+        steer_rad: f64,
+        /// Radius that the steering limit implies, metres.
+        implied_m: f64,
+    },
+    /// A vehicle without a turning radius.
+    #[error(
+        "the vehicle turns on the spot ({name} = {value}); formicar plans for steered axles, whose turning radius is above 0"
+    )]
+    TurnsOnTheSpot {
+        /// The measure that says so.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// The footprint is no convex polygon.
+    #[error("vehicle footprint: {0}")]
+    Footprint(#[from] PolygonError),
+    /// The footprint string cannot be read.
+    #[error("vehicle footprint: {0}")]
+    FootprintText(String),
+    /// A preset name that nobody knows.
+    #[error("no vehicle preset is named {name:?}; there are {}", super::PRESET_NAMES.join(", "))]
+    UnknownPreset {
+        /// The name asked for.
+        name: String,
+    },
+}
+
+/// How a vehicle may move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// Rolls on a steered axle: bounded curvature, heading along the path.
+    Car,
+    /// A holonomic point: any direction at any time; only its centre line must stay free.
+    Point,
+}
+
+/// A vehicle whose measures have been checked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vehicle {
+    parameters: VehicleParameters,
+    motion: Motion,
+    footprint: ConvexPolygon,
+    max_curvature_per_m: f64,
+}
+
+impl Vehicle {
+    /// A car from its measures.
+    ///
+    /// # Errors
+    /// Measures that are missing, out of range or contradict each other.
+    pub fn new(parameters: VehicleParameters) -> Result<Self, VehicleError> {
+        check_ranges(&parameters)?;
+        let footprint = body(&parameters)?.grown(parameters.safety_margin_m.unwrap_or(0.0));
+        let max_curvature_per_m = 1.0 / turning_radius(&parameters)?;
+        Ok(Self {
+            parameters,
+            motion: Motion::Car,
+            footprint,
+            max_curvature_per_m,
+        })
+    }
+
+    /// A holonomic point, for bare grid problems.
+    pub fn point() -> Self {
+        Self {
+            parameters: VehicleParameters::default(),
+            motion: Motion::Point,
+            footprint: ConvexPolygon::rectangle(Point2::default(), Point2::default()),
+            max_curvature_per_m: f64::INFINITY,
+        }
+    }
+
+    /// The same vehicle with another safety margin.
+    ///
+    /// # Errors
+    /// A margin that is negative or not finite.
+    pub fn with_safety_margin(&self, margin_m: f64) -> Result<Self, VehicleError> {
+        let safety_margin_m = Some(margin_m);
+        match self.motion {
+            Motion::Point => Ok(self.clone()),
+            Motion::Car => Self::new(VehicleParameters {
+                safety_margin_m,
+                ..self.parameters.clone()
+            }),
+        }
+    }
+
+    /// The measures as given.
+    pub fn parameters(&self) -> &VehicleParameters {
+        &self.parameters
+    }
+
+    /// How it may move.
+    pub fn motion(&self) -> Motion {
+        self.motion
+    }
+
+    /// The body with its safety margin, around the rear-axle centre, x forward, y left, metres.
+    pub fn footprint(&self) -> &ConvexPolygon {
+        &self.footprint
+    }
+
+    /// Largest curvature of the rear-axle centre's path; infinite for a point.
+    pub fn max_curvature_per_m(&self) -> f64 {
+        self.max_curvature_per_m
+    }
+
+    /// Smallest turning radius of the rear-axle centre, metres; 0 for a point.
+    pub fn min_turning_radius_m(&self) -> f64 {
+        1.0 / self.max_curvature_per_m
+    }
+
+    /// Distance between the axles, metres, where it is known.
+    pub fn wheelbase_m(&self) -> Option<f64> {
+        self.parameters.wheelbase_m
+    }
+
+    /// Distance between the wheels of an axle, metres; 0.8 of the width unless given.
+    pub fn track_width_m(&self) -> f64 {
+        let (low, high) = self.footprint.bounds();
+        self.parameters
+            .track_width_m
+            .unwrap_or(0.8 * (high.y - low.y))
+    }
+
+    /// Steering angle of the virtual middle wheel at a curvature: atan(wheelbase * curvature).
+    pub fn steer_rad(&self, curvature_per_m: f64) -> Option<f64> {
+        self.wheelbase_m()
+            .map(|wheelbase| (wheelbase * curvature_per_m).atan())
+    }
+
+    /// A 128-bit hash of what the judge uses: motion, footprint and curvature limit.
+    pub fn hash(&self) -> u128 {
+        let mut bytes = vec![self.motion as u8];
+        bytes.extend(self.max_curvature_per_m.to_le_bytes());
+        for corner in self.footprint.corners() {
+            bytes.extend(corner.x.to_le_bytes());
+            bytes.extend(corner.y.to_le_bytes());
+        }
+        xxh3_128(&bytes)
+    }
+}
+
+fn check_ranges(p: &VehicleParameters) -> Result<(), VehicleError> {
+    let positive = [
+        ("wheelbase_m", p.wheelbase_m),
+        ("track_width_m", p.track_width_m),
+        ("width_m", p.width_m),
+        ("max_steer_rate_rad_per_s", p.max_steer_rate_rad_per_s),
+        ("speed_mps", p.speed_mps),
+    ];
+    let not_negative = [
+        ("front_overhang_m", p.front_overhang_m),
+        ("rear_overhang_m", p.rear_overhang_m),
+        ("safety_margin_m", p.safety_margin_m),
+        ("max_steer_rad", p.max_steer_rad),
+        ("max_steer_deg", p.max_steer_deg),
+        ("min_turning_radius_m", p.min_turning_radius_m),
+    ];
+    let in_range =
+        |v: f64, above_zero: bool| v.is_finite() && v < 1e6 && (v > 0.0 || !above_zero && v == 0.0);
+    let check = |list: &[(&'static str, Option<f64>)], above_zero: bool, range| {
+        let bad = list.iter().find_map(|&(name, value)| {
+            value
+                .filter(|&v| !in_range(v, above_zero))
+                .map(|value| (name, value))
+        });
+        bad.map_or(Ok(()), |(name, value)| {
+            Err(VehicleError::OutOfRange { name, value, range })
+        })
+    };
+    check(&positive, true, "finite, above 0 and below 1e6")?;
+    check(&not_negative, false, "finite, at least 0 and below 1e6")
+}
+
+fn body(p: &VehicleParameters) -> Result<ConvexPolygon, VehicleError> {
+    if let Some(spec) = &p.footprint {
+        let points = spec.points().map_err(VehicleError::FootprintText)?;
+        if points.len() < 3 || points.iter().any(|p| !p.is_finite()) {
+            return Ok(ConvexPolygon::new(&points)?);
+        }
+        return Ok(ConvexPolygon::hull(&points)?);
+    }
+    let needed = |name, value: Option<f64>| {
+        let hint =
+            "give wheelbase_m, width_m, front_overhang_m and rear_overhang_m, or a footprint";
+        value.ok_or(VehicleError::Missing { name, hint })
+    };
+    let front =
+        needed("wheelbase_m", p.wheelbase_m)? + needed("front_overhang_m", p.front_overhang_m)?;
+    let rear = needed("rear_overhang_m", p.rear_overhang_m)?;
+    let half_width = 0.5 * needed("width_m", p.width_m)?;
+    Ok(ConvexPolygon::rectangle(
+        Point2::new(-rear, -half_width),
+        Point2::new(front, half_width),
+    ))
+}
+
+fn turning_radius(p: &VehicleParameters) -> Result<f64, VehicleError> {
+    let from_degrees = p.max_steer_deg.map(f64::to_radians);
+    let steer = p.max_steer_rad.or(from_degrees);
+    let implied = match (steer, p.wheelbase_m) {
+        (Some(steer_rad), _) if steer_rad >= FRAC_PI_2 => {
+            return Err(VehicleError::TurnsOnTheSpot {
+                name: "max_steer_rad",
+                value: steer_rad,
+            });
+        }
+        (Some(0.0), _) => {
+            return Err(VehicleError::OutOfRange {
+                name: "max_steer_rad",
+                value: 0.0,
+                range: "in (0, pi/2)",
+            });
+        }
+        (Some(steer_rad), Some(wheelbase)) => Some((steer_rad, wheelbase / steer_rad.tan())),
+        (Some(_), None) if p.min_turning_radius_m.is_none() => {
+            let hint = "max_steer needs it; or give min_turning_radius_m";
+            return Err(VehicleError::Missing {
+                name: "wheelbase_m",
+                hint,
+            });
+        }
+        _ => None,
+    };
+    match (p.min_turning_radius_m, implied) {
+        (Some(0.0), _) => Err(VehicleError::TurnsOnTheSpot {
+            name: "min_turning_radius_m",
+            value: 0.0,
+        }),
+        (Some(radius_m), Some((steer_rad, implied_m)))
+            if (radius_m / implied_m - 1.0).abs() > 0.01 =>
+        {
+            Err(VehicleError::LimitsDisagree {
+                radius_m,
+                steer_rad,
+                implied_m,
+            })
+        }
+        (Some(radius_m), _) => Ok(radius_m),
+        (None, Some((_, implied_m))) => Ok(implied_m),
+        (None, None) => Err(VehicleError::Missing {
+            name: "max_steer_rad",
+            hint: "give max_steer_rad, max_steer_deg or min_turning_radius_m",
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn car() -> VehicleParameters {
+        Vehicle::sedan().parameters().clone()
+    }
+
+    #[test]
+    fn steering_limit_and_turning_radius_are_one() {
+        let lei = Vehicle::lei2020();
+        assert!((lei.min_turning_radius_m() - 2.383_507).abs() < 1e-6);
+        let steer = lei.steer_rad(lei.max_curvature_per_m()).unwrap();
+        assert!((steer - 40_f64.to_radians()).abs() < 1e-12);
+        let r_min = Some(2.0);
+        let error = Vehicle::new(VehicleParameters {
+            min_turning_radius_m: r_min,
+            ..car()
+        });
+        assert!(matches!(error, Err(VehicleError::LimitsDisagree { .. })));
+    }
+
+    #[test]
+    fn refuses_what_turns_on_the_spot() {
+        let spin = VehicleParameters {
+            max_steer_rad: Some(1.6),
+            max_steer_deg: None,
+            ..car()
+        };
+        assert!(matches!(
+            Vehicle::new(spin),
+            Err(VehicleError::TurnsOnTheSpot { .. })
+        ));
+        let still = VehicleParameters {
+            max_steer_rad: None,
+            max_steer_deg: None,
+            min_turning_radius_m: Some(0.0),
+            ..car()
+        };
+        assert!(matches!(
+            Vehicle::new(still),
+            Err(VehicleError::TurnsOnTheSpot { .. })
+        ));
+    }
+
+    #[test]
+    fn refuses_numbers_that_are_no_measures() {
+        for bad in [f64::NAN, f64::INFINITY, -1.0, 0.0] {
+            let p = VehicleParameters {
+                wheelbase_m: Some(bad),
+                ..car()
+            };
+            assert!(
+                matches!(Vehicle::new(p), Err(VehicleError::OutOfRange { .. })),
+                "{bad}"
+            );
+        }
+    }
+
+    #[test]
+    fn margin_grows_the_footprint_everywhere() {
+        let grown = Vehicle::sedan().with_safety_margin(0.1).unwrap();
+        let (low, high) = grown.footprint().bounds();
+        assert!((low.x + 1.1).abs() < 1e-12 && (high.x - 3.8).abs() < 1e-12);
+        assert!((high.y - 1.0).abs() < 1e-12);
+        assert_ne!(grown.hash(), Vehicle::sedan().hash());
+    }
+
+    #[test]
+    fn reads_users_words() {
+        let json = r#"{"footprint": "[[1.2,0.3],[-0.2,0.3],[-0.2,-0.3],[1.2,-0.3]]", "min_turning_radius": 1.0}"#;
+        let vehicle = Vehicle::new(serde_json::from_str(json).unwrap()).unwrap();
+        assert!((vehicle.footprint().area() - 0.84).abs() < 1e-12);
+        assert_eq!(vehicle.wheelbase_m(), None);
+        assert!(serde_json::from_str::<VehicleParameters>(r#"{"wheelbse": 2}"#).is_err());
+    }
+}
