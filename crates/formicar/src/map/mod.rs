@@ -8,6 +8,7 @@ mod grid;
 mod raster;
 
 pub use bit_grid::BitGrid;
+pub(crate) use bit_grid::set_bits;
 pub use cell::Cell;
 pub use distance::DistanceField;
 pub use frame::GridFrame;
