@@ -28,13 +28,13 @@ fn check_all(from: Pose2, to: Pose2, radius_m: f64) {
     let all_of = [
         (
             dubins::candidates(from, to, radius_m),
-            dubins::shortest(from, to, radius_m).unwrap(),
-            dubins::distance(from, to, radius_m).unwrap(),
+            dubins::shortest(from, to, radius_m).expect("finite numbers"),
+            dubins::distance(from, to, radius_m).expect("finite numbers"),
         ),
         (
             reeds_shepp::candidates(from, to, radius_m),
-            reeds_shepp::shortest(from, to, radius_m).unwrap(),
-            reeds_shepp::distance(from, to, radius_m).unwrap(),
+            reeds_shepp::shortest(from, to, radius_m).expect("finite numbers"),
+            reeds_shepp::distance(from, to, radius_m).expect("finite numbers"),
         ),
     ];
     for (candidates, shortest, distance) in all_of {
