@@ -1,6 +1,6 @@
 //! A path in files: sampled poses for followers, exact segments for the judge.
 
-use crate::collision::ObstacleMap;
+use crate::collision::{Body, ObstacleMap};
 use crate::geometry::{Pose2, wrap_angle};
 use crate::path::{CurvePath, CurveSegment, Direction};
 use crate::vehicle::Vehicle;
@@ -63,6 +63,7 @@ pub struct SegmentRecord {
 impl PathDocument {
     /// A path in world coordinates, measured against a map with a vehicle.
     pub fn new(path: &CurvePath, obstacles: &ObstacleMap, vehicle: &Vehicle) -> Self {
+        let body = Body::new(vehicle);
         let poses = path
             .sample(POSE_SPACING_M)
             .into_iter()
@@ -74,7 +75,7 @@ impl PathDocument {
                 direction: at.direction,
                 curvature: at.curvature_per_m,
                 steer: vehicle.steer_rad(at.curvature_per_m),
-                clearance: obstacles.clearance_m(vehicle.footprint(), obstacles.to_grid(at.pose)),
+                clearance: obstacles.clearance_m(&body, obstacles.frame().to_grid(at.pose)),
             });
         Self {
             poses: poses.collect(),
