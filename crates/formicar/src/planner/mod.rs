@@ -1,10 +1,19 @@
 //! The one door: a map, a vehicle and a configuration in, certified paths out.
 
+mod answer;
 mod config;
 mod outcome;
+mod path_document;
+mod request_document;
 
+pub use answer::{
+    ANSWER_SCHEMA, Answer, AnswerContext, AnswerError, CertificateHashes, MapRecord, Provenance,
+    StoredPath, Timing, VehicleRecord,
+};
 pub use config::{ConfigError, GridSearchConfig, HybridAstarConfig, PlannerConfig, PlannerName};
 pub use outcome::{NotFound, Outcome, Plan, PlanError};
+pub use path_document::{POSE_SPACING_M, PathDocument, PoseRecord, SegmentRecord};
+pub use request_document::RequestDocument;
 
 use crate::collision::ObstacleMap;
 use crate::map::OccupancyGrid;

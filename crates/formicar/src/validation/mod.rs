@@ -6,11 +6,13 @@
 //! valid path gets a [`Certificate`], and only the judge makes one.
 
 mod ends;
+mod foreign;
 mod judge;
 mod report;
 mod shape;
 mod swept;
 
+pub use foreign::{FOREIGN_CURVATURE_SLACK, path_through_points, path_through_poses};
 pub use judge::{judge, judge_path};
 pub use report::{Certificate, Report, Violation, ViolationKind};
 
