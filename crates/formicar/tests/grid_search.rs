@@ -1,4 +1,9 @@
 //! A*, the goal field and known optima agree on grids.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test suite: helpers outside of tests may fail and say that they skip"
+)]
 
 use formicar::map::{BitGrid, Cell, DiagonalRule, MoveMasks, STEPS};
 use formicar::map::{Components, DistanceField};

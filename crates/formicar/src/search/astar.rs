@@ -1,7 +1,7 @@
 //! A* from cell to cell (Hart, Nilsson & Raphael 1968) on flat arrays.
 
 use super::bucket_queue::BucketQueue;
-use super::cost::{MAX_COST, STEP_COSTS, octile};
+use super::cost::{MAX_COST, NO_STEP, ONWARD_STEPS, STEP_COSTS, octile};
 use super::grid_search::{GridSearch, SearchError, check_end};
 use crate::map::{Cell, MoveMasks, STEPS};
 use crate::progress::{Limits, Status};
@@ -25,8 +25,6 @@ const STEP_BITS: u32 = 4;
 const QUERY_SHIFT: u32 = STEP_BITS + 32;
 const MAX_QUERY: u64 = u64::MAX >> QUERY_SHIFT;
 const STEP_MASK: u64 = (1 << STEP_BITS) - 1;
-/// In place of a step: the start.
-const NO_STEP: u64 = 8;
 
 impl Default for AstarWorkspace {
     fn default() -> Self {
@@ -93,7 +91,7 @@ pub fn astar(
     check_end(moves, "goal", goal)?;
     let first_key = octile(start, goal);
     workspace.begin(moves.as_slice().len(), first_key);
-    workspace.states[moves.index(start)] = workspace.state(0) | NO_STEP;
+    workspace.states[moves.index(start)] = workspace.state(0) | NO_STEP as u64;
     workspace.queue.push(moves.index(start) as u32, first_key);
     let expansion = Expansion {
         masks: moves.as_slice(),
@@ -129,6 +127,10 @@ impl Expansion<'_> {
     /// Reaches out from a cell to its neighbors.
     fn expand(&self, workspace: &mut AstarWorkspace, index: usize, cell: Cell, cost: u32) {
         let mut steps = self.masks[index];
+        if steps == u8::MAX {
+            let last_step = workspace.states[index] & STEP_MASK;
+            steps = ONWARD_STEPS[last_step as usize];
+        }
         while steps != 0 {
             let step = steps.trailing_zeros() as usize;
             steps &= steps - 1;

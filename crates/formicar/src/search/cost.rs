@@ -28,3 +28,25 @@ pub(super) fn octile(a: Cell, b: Cell) -> u32 {
     long.wrapping_mul(STRAIGHT_COST)
         .wrapping_add(short.wrapping_mul(DIAGONAL_COST - STRAIGHT_COST))
 }
+
+/// By the step that reached a cell from its best neighbor: the steps worth taking on, where all
+/// eight are allowed; all of them at [`NO_STEP`].
+///
+/// Every other neighbor is reached at no more cost past the cell: from the best neighbor itself
+/// or, by a diagonal step first and a straight one then, through a cell that offers that straight
+/// step unless it is a detour (Harabor & Grastien 2011, sec. 3, neighbor pruning). Which of two
+/// equal ways reached a cell first does not matter.
+pub(super) const ONWARD_STEPS: [u8; 9] = {
+    let mut onward = [0xFF_u8; 9];
+    let mut step = 0;
+    while step < 8 {
+        let ahead = 1_u8 << step;
+        let beside = ahead.rotate_left(1) | ahead.rotate_right(1);
+        onward[step] = if step % 2 == 0 { ahead } else { ahead | beside };
+        step += 1;
+    }
+    onward
+};
+
+/// In place of a step: none, the cell is a start.
+pub(super) const NO_STEP: usize = 8;

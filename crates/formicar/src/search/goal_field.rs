@@ -33,36 +33,31 @@ impl GoalField {
         goals: &[Cell],
         limits: &mut Limits,
     ) -> Result<Self, SearchError> {
-        let mut costs = vec![UNREACHED; moves.as_slice().len()];
-        let mut wave = Bucket::default();
-        for &goal in goals {
-            check_end(moves, "goal", goal)?;
-            costs[moves.index(goal)] = 0;
-            wave.reserve(1);
-            wave.push_if(true, moves.index(goal));
-        }
         let mut spread = Spread {
-            costs,
+            costs: vec![UNREACHED; moves.as_slice().len()],
             masks: moves.as_slice(),
             offsets: moves.offsets(),
         };
-        let (mut next, mut after_next) = (Bucket::default(), Bucket::default());
+        let [mut wave, mut next, mut after_next] = [(); 3].map(|()| Level::default());
+        for &goal in goals {
+            check_end(moves, "goal", goal)?;
+            spread.costs[moves.index(goal)] = 0;
+        }
+        for &goal in goals {
+            limits.step()?;
+            next.reserve();
+            after_next.reserve();
+            spread.expand(moves.index(goal), 0, &mut next, &mut after_next);
+        }
         let mut floor = 0;
-        while wave.n_cells + next.n_cells > 0 {
-            for cells in wave.cells[..wave.n_cells].chunks(CHUNK) {
-                next.reserve(8 * CHUNK);
-                after_next.reserve(4 * CHUNK);
-                for &cell in cells {
-                    limits.step()?;
-                    spread.expand(cell as usize, floor, &mut next, &mut after_next);
-                }
-            }
+        while !(next.is_empty() && after_next.is_empty()) {
             if floor > MAX_COST - 2 * STRAIGHT_COST {
                 return Err(SearchError::TOO_LONG);
             }
             floor += STRAIGHT_COST;
-            wave.n_cells = 0;
+            wave.clear();
             (wave, next, after_next) = (next, after_next, wave);
+            spread.advance(&wave, floor, [&mut next, &mut after_next], limits)?;
         }
         Ok(Self {
             costs: spread.costs,
@@ -132,21 +127,42 @@ impl GoalField {
     }
 }
 
-/// Cells waiting, with room kept behind them so that a push is a plain write.
+/// Cells of one bucket by the step that reached them, with room behind each list so that a push is
+/// a plain write.
 #[derive(Default)]
-struct Bucket {
+struct Level {
+    lists: [List; 8],
+}
+
+#[derive(Default)]
+struct List {
     cells: Vec<u32>,
     n_cells: usize,
 }
 
-impl Bucket {
-    fn reserve(&mut self, n_more: usize) {
-        if self.cells.len() < self.n_cells + n_more {
-            let n_room = (self.n_cells + n_more).next_power_of_two();
-            self.cells.resize(n_room, 0);
+impl Level {
+    fn is_empty(&self) -> bool {
+        self.lists.iter().all(|list| list.n_cells == 0)
+    }
+
+    fn clear(&mut self) {
+        for list in &mut self.lists {
+            list.n_cells = 0;
         }
     }
 
+    /// Makes room for a chunk of cells to be expanded.
+    fn reserve(&mut self) {
+        for list in &mut self.lists {
+            let n_wanted = list.n_cells + CHUNK;
+            if list.cells.len() < n_wanted {
+                list.cells.resize(n_wanted.next_power_of_two(), 0);
+            }
+        }
+    }
+}
+
+impl List {
     /// Writes the cell and keeps it if it is wanted; there must be room.
     fn push_if(&mut self, is_wanted: bool, cell: usize) {
         self.cells[self.n_cells] = cell as u32;
@@ -162,32 +178,80 @@ struct Spread<'a> {
 }
 
 impl Spread<'_> {
-    /// Offers a way through a cell of the bucket from `floor` on to its neighbors.
-    fn expand(&mut self, index: usize, floor: u32, next: &mut Bucket, after_next: &mut Bucket) {
-        let (cost, mask) = (self.costs[index], self.masks[index]);
-        if cost < floor {
-            // Reached by a shorter way since it was queued, and expanded then.
-            return;
+    /// Expands a level whose costs begin at `floor` into the next two.
+    fn advance(
+        &mut self,
+        wave: &Level,
+        floor: u32,
+        [next, after_next]: [&mut Level; 2],
+        limits: &mut Limits,
+    ) -> Result<(), Status> {
+        for (step, list) in wave.lists.iter().enumerate() {
+            for cells in list.cells[..list.n_cells].chunks(CHUNK) {
+                next.reserve();
+                after_next.reserve();
+                for &cell in cells {
+                    limits.step()?;
+                    let index = cell as usize;
+                    if self.costs[index] < floor {
+                        // Reached by a shorter way since it was queued, and expanded then.
+                        continue;
+                    }
+                    if self.masks[index] != u8::MAX {
+                        self.expand(index, floor, next, after_next);
+                    } else if step % 2 == 0 {
+                        self.offer(index, step, self.costs[index] + STRAIGHT_COST, next);
+                    } else {
+                        self.expand_diagonal(index, step, floor, next, after_next);
+                    }
+                }
+            }
         }
-        // Branchless: a step that is not allowed leads from the cell to itself, which is no gain.
-        let target = |step: usize| {
-            let is_allowed = isize::from(mask >> step & 1 == 1);
-            index.wrapping_add_signed(self.offsets[step] & -is_allowed)
-        };
-        let straight = [0, 2, 4, 6].map(target);
-        let diagonal = [1, 3, 5, 7].map(target);
-        self.offer(straight, cost + STRAIGHT_COST, next);
+        Ok(())
+    }
+
+    /// Offers a way through a cell to all its neighbors.
+    fn expand(&mut self, index: usize, floor: u32, next: &mut Level, after_next: &mut Level) {
+        let cost = self.costs[index];
         let is_next = cost + DIAGONAL_COST < floor + 2 * STRAIGHT_COST;
-        let bucket = if is_next { next } else { after_next };
-        self.offer(diagonal, cost + DIAGONAL_COST, bucket);
+        let mut steps = self.masks[index];
+        while steps != 0 {
+            let step = steps.trailing_zeros() as usize;
+            steps &= steps - 1;
+            if step % 2 == 0 {
+                self.offer(index, step, cost + STRAIGHT_COST, next);
+            } else {
+                let level = if is_next {
+                    &mut *next
+                } else {
+                    &mut *after_next
+                };
+                self.offer(index, step, cost + DIAGONAL_COST, level);
+            }
+        }
+    }
+
+    fn expand_diagonal(
+        &mut self,
+        index: usize,
+        step: usize,
+        floor: u32,
+        next: &mut Level,
+        after_next: &mut Level,
+    ) {
+        let cost = self.costs[index];
+        self.offer(index, (step + 1) % 8, cost + STRAIGHT_COST, next);
+        self.offer(index, step - 1, cost + STRAIGHT_COST, next);
+        let is_next = cost + DIAGONAL_COST < floor + 2 * STRAIGHT_COST;
+        let level = if is_next { next } else { after_next };
+        self.offer(index, step, cost + DIAGONAL_COST, level);
     }
 
     #[inline]
-    fn offer(&mut self, targets: [usize; 4], cost: u32, bucket: &mut Bucket) {
-        for to in targets {
-            let known = self.costs[to];
-            self.costs[to] = known.min(cost);
-            bucket.push_if(cost < known, to);
-        }
+    fn offer(&mut self, index: usize, step: usize, cost: u32, level: &mut Level) {
+        let to = index.wrapping_add_signed(self.offsets[step]);
+        let known = self.costs[to];
+        self.costs[to] = known.min(cost);
+        level.lists[step].push_if(cost < known, to);
     }
 }
