@@ -18,12 +18,14 @@ pub const STEPS: [(i32, i32); 8] = [
 ];
 
 /// When a diagonal step between two free cells is allowed, by the two cells beside its corner.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, schemars::JsonSchema,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum DiagonalRule {
     /// Always, even between two obstacles.
     Always,
-    /// If at least one of the two is free (Wang 2020).
+    /// If at least one of the two is free (Wang 2019).
     AtMostOneObstacle,
     /// If both are free: no corner is cut, as in the `MovingAI` benchmarks.
     #[default]

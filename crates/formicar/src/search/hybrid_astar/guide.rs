@@ -1,4 +1,4 @@
-//! What is still to be driven, estimated: the larger of two lower views of it.
+//! What is still to be driven, estimated from two sides; the larger counts.
 
 use super::HybridProblem;
 use crate::geometry::{Pose2, dubins, reeds_shepp};
@@ -31,12 +31,10 @@ impl<'a> Guide<'a> {
         let truncation = f64::from(obstacles.distance().truncation_cells());
         let blocked = obstacles.distance().within(radius.clamp(0.0, truncation - 0.5));
         let blocked = blocked.unwrap_or_else(|| obstacles.lethal().clone());
-        let free = |cell: &Cell| !blocked.contains(i64::from(cell.col), i64::from(cell.row));
-        let cell = |pose: &Pose2| problem.cell(*pose);
-        let Some(goal) = problem.goals().iter().map(cell).find(free) else { return Ok(None) };
-        if !problem.starts().map(|pose| cell(&pose)).any(|cell| free(&cell)) {
-            return Ok(None);
-        }
+        let free = |cell: &Cell| !blocked.get(cell.col as usize, cell.row as usize);
+        let goal = problem.goals().first().and_then(|&pose| problem.cell(pose)).filter(free);
+        let start = problem.starts().next().and_then(|pose| problem.cell(pose)).filter(free);
+        let (Some(goal), Some(_)) = (goal, start) else { return Ok(None) };
         let moves = MoveMasks::new(&blocked, DiagonalRule::AtMostOneObstacle);
         match GoalField::new(&moves, &[goal], &mut limits.without_budget()) {
             Ok(field) => Ok(Some(Self { problem, field })),
@@ -68,7 +66,7 @@ impl<'a> Guide<'a> {
     }
 
     fn field_m(&self, pose: Pose2) -> Option<f64> {
-        let cells = self.field.distance_cells(self.problem.cell(pose))?;
+        let cells = self.field.distance_cells(self.problem.cell(pose)?)?;
         Some(Self::OCTILE_SHRINK * cells * self.problem.obstacles().frame().resolution_m())
     }
 }

@@ -20,7 +20,7 @@ pub use problem::HybridProblem;
 use crate::geometry::{Arc, Pose2};
 use crate::progress::{Limits, Status};
 use guide::Guide;
-use open_list::{Entry, Move, OpenList};
+use open_list::{Entry, OpenList, Step};
 use state_set::StateSet;
 use tree::{Node, Tree};
 
@@ -61,83 +61,57 @@ impl<'a> Search<'a> {
         for start in self.problem.starts() {
             let root = self.tree.add(Node::root(start));
             self.open_shots(root);
-            self.open_alignments(root);
+            self.open_moves(root);
         }
         while let Some(entry) = self.open.pop() {
-            if let Move::Shot(shot) = entry.step {
-                return Ok(self.tree.path(entry.parent, &self.tree.shot(shot).clone()));
-            }
-            let node = self.arrive(&entry);
-            if !self.closed.vacant(self.problem.key(&node)) {
+            let step = match entry.step {
+                Step::Shot(shot) => return Ok(self.tree.path(entry.parent, Some(shot))),
+                Step::Move(step) => step,
+            };
+            let node = self.problem.arrive(entry.parent, self.tree.node(entry.parent), step);
+            let key = self.problem.key(&node);
+            if !self.closed.vacant(key) {
                 continue;
             }
             limits.step()?;
-            if !self.problem.is_free(self.tree.pose(entry.parent), node.arc) {
+            if !self.problem.is_free(self.tree.node(entry.parent).pose, node.arc) {
                 continue;
             }
-            self.closed.insert(self.problem.key(&node));
+            self.closed.insert(key);
             let id = self.tree.add(node);
-            if self.problem.at_goal(self.tree.pose(id)) {
-                return Ok(self.tree.path(id, &[]));
+            if self.problem.at_goal(node.pose) {
+                return Ok(self.tree.path(id, None));
             }
-            if self.guide.wants_shot(self.tree.pose(id), id) {
+            if self.guide.wants_shot(node.pose, id) {
                 self.open_shots(id);
             }
-            self.open_primitives(id);
+            self.open_moves(id);
         }
         Err(Status::NoPath)
     }
 
-    /// The node that an entry leads to.
-    fn arrive(&self, entry: &Entry) -> Node {
-        let parent = &self.tree.node(entry.parent);
-        let (arc, heading_index) = match entry.step {
-            Move::Primitive(i) => {
-                let primitive = &self.problem.lattice().primitives()[i as usize];
-                (primitive.arc(), self.problem.lattice().heading_after(parent.heading_index, primitive))
+    /// Puts the motions from a node on the list that may lead somewhere new.
+    fn open_moves(&mut self, parent: u32) {
+        let from = *self.tree.node(parent);
+        for step in 0..self.problem.n_moves(&from) {
+            let node = self.problem.arrive(parent, &from, step);
+            if self.problem.hits(node.pose) || !self.closed.vacant(self.problem.key(&node)) {
+                continue;
             }
-            Move::Alignment(i) => {
-                let alignment = self.problem.lattice().alignment_arcs(parent.pose.heading)[i as usize];
-                (alignment.arc, alignment.heading_index)
+            if let Some(to_go) = self.guide.cost_to_go(node.pose) {
+                let estimate = node.cost + self.problem.config().weight * to_go;
+                self.open.push(Entry { parent, step: Step::Move(step), estimate });
             }
-            Move::Shot(_) => unreachable!("shots are answered before they arrive anywhere"),
-        };
-        let pose = self.problem.lattice_pose(arc.end_from(parent.pose), heading_index);
-        let cost = parent.cost + self.problem.cost(parent, arc, pose);
-        Node { pose, arc, heading_index, cost, parent: Some(entry.parent) }
-    }
-
-    fn open_primitives(&mut self, id: u32) {
-        for i in 0..self.problem.lattice().primitives().len() {
-            self.open_move(id, Move::Primitive(i as u16));
-        }
-    }
-
-    fn open_alignments(&mut self, id: u32) {
-        let n = self.problem.lattice().alignment_arcs(self.tree.pose(id).heading).len();
-        for i in 0..n {
-            self.open_move(id, Move::Alignment(i as u16));
-        }
-    }
-
-    fn open_move(&mut self, parent: u32, step: Move) {
-        let entry = Entry { parent, step, estimate: 0.0 };
-        let node = self.arrive(&entry);
-        if self.problem.hits(node.pose) || !self.closed.vacant(self.problem.key(&node)) {
-            return;
-        }
-        if let Some(to_go) = self.guide.cost_to_go(node.pose) {
-            let estimate = node.cost + self.problem.config().weight * to_go;
-            self.open.push(Entry { estimate, ..entry });
         }
     }
 
     /// Puts the cheapest free curve from a node to the goal on the list.
-    fn open_shots(&mut self, id: u32) {
-        if let Some((arcs, cost)) = shots::best(self.problem, &self.tree.node(id)) {
-            let estimate = self.tree.node(id).cost + cost;
+    fn open_shots(&mut self, parent: u32) {
+        let node = self.tree.node(parent);
+        if let Some((arcs, cost)) = shots::best(self.problem, node) {
+            let estimate = node.cost + cost;
             let shot = self.tree.add_shot(arcs);
-            self.open.push(Entry { parent: id, step: Move::Shot(shot), estimate });
+            self.open.push(Entry { parent, step: Step::Shot(shot), estimate });
         }
     }
 }

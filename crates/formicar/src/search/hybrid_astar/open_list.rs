@@ -3,22 +3,20 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// A motion from a node.
+/// What can follow a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Move {
-    /// One of the lattice's primitives.
-    Primitive(u16),
-    /// One of the arcs that lead onto the lattice.
-    Alignment(u16),
-    /// A curve to the goal.
+pub(super) enum Step {
+    /// A motion onto another state, by its number.
+    Move(u16),
+    /// A free curve to the goal, by its number.
     Shot(u32),
 }
 
-/// A motion from a node with the estimated cost of a path through it.
+/// A step from a node with the estimated cost of a path through it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entry {
     pub(super) parent: u32,
-    pub(super) step: Move,
+    pub(super) step: Step,
     pub(super) estimate: f64,
 }
 
@@ -74,7 +72,7 @@ mod tests {
     fn least_estimate_first_then_the_latest() {
         let mut open = OpenList::default();
         for (parent, estimate) in [(0, 2.0), (1, 1.0), (2, 1.0), (3, 3.0)] {
-            open.push(Entry { parent, step: Move::Primitive(0), estimate });
+            open.push(Entry { parent, step: Step::Move(0), estimate });
         }
         let order: Vec<u32> = std::iter::from_fn(|| open.pop().map(|e| e.parent)).collect();
         assert_eq!(order, [2, 1, 0, 3]);

@@ -4,7 +4,8 @@ use super::HybridAstarConfig;
 use super::tree::Node;
 use crate::collision::{Body, Drive, ObstacleMap};
 use crate::geometry::{Arc, Pose2, angle_difference};
-use crate::scenario::{GoalTolerance, MotionMode, Request, StartHeading};
+use crate::map::Cell;
+use crate::scenario::{GoalTolerance, MotionMode, Request};
 use crate::vehicle::{Gears, PrimitiveSet, Vehicle, VehicleError};
 
 /// A request on a map for a vehicle, in grid coordinates.
@@ -78,10 +79,6 @@ impl<'a> HybridProblem<'a> {
         self.config
     }
 
-    pub(super) fn lattice(&self) -> &PrimitiveSet {
-        &self.lattice
-    }
-
     pub(super) fn radius_m(&self) -> f64 {
         self.radius_m
     }
@@ -98,20 +95,49 @@ impl<'a> HybridProblem<'a> {
         self.request.motion
     }
 
+    /// The map cell under a pose, if it is on the map.
+    pub(super) fn cell(&self, pose: Pose2) -> Option<Cell> {
+        let frame = self.obstacles.frame();
+        let (col, row) = (pose.x / frame.resolution_m(), pose.y / frame.resolution_m());
+        let inside = (0.0..frame.n_cols() as f64).contains(&col) && (0.0..frame.n_rows() as f64).contains(&row);
+        inside.then(|| Cell::new(col as u32, row as u32))
+    }
+
     /// The lattice state of a node, as one number.
     pub(super) fn key(&self, node: &Node) -> u64 {
         let cell = |v: f64| (v / self.state_m).max(0.0) as u64 & 0x00FF_FFFF;
         cell(node.pose.x) << 40 | cell(node.pose.y) << 16 | node.heading_index as u64
     }
 
-    /// The pose with its heading put exactly on the lattice, so that rounding does not add up.
-    pub(super) fn lattice_pose(&self, pose: Pose2, heading_index: usize) -> Pose2 {
-        Pose2::at(pose.position(), self.lattice.heading_rad(heading_index))
+    /// Number of motions from a node: primitives, or from a start the arcs onto the lattice.
+    pub(super) fn n_moves(&self, node: &Node) -> u16 {
+        match node.parent {
+            Some(_) => self.lattice.primitives().len() as u16,
+            None => self.lattice.alignment_arcs(node.pose.heading).len() as u16,
+        }
+    }
+
+    /// The node that a motion leads to. Headings are put exactly on the lattice, so that rounding
+    /// does not add up.
+    pub(super) fn arrive(&self, parent_id: u32, parent: &Node, step: u16) -> Node {
+        let step = step as usize;
+        let (arc, heading_index, position) = if parent.parent.is_some() {
+            let primitive = &self.lattice.primitives()[step];
+            let moved = self.lattice.displacements(parent.heading_index)[step];
+            let heading_index = self.lattice.heading_after(parent.heading_index, primitive);
+            (primitive.arc(), heading_index, parent.pose.position() + moved)
+        } else {
+            let alignment = self.lattice.alignment_arcs(parent.pose.heading)[step];
+            (alignment.arc, alignment.heading_index, alignment.arc.end_from(parent.pose).position())
+        };
+        let pose = Pose2::at(position, self.lattice.heading_rad(heading_index));
+        let cost = parent.cost + self.cost(parent, arc, pose);
+        Node { pose, arc, heading_index, cost, parent: Some(parent_id) }
     }
 
     /// Whether the body's inner disc certainly hits something: a look at one cell.
     pub(super) fn hits(&self, pose: Pose2) -> bool {
-        self.obstacles.center_clearance_m(&self.body, pose) < 0.0
+        self.obstacles.clearance_ceiling_m(&self.body, pose) < 0.0
     }
 
     /// Whether a motion touches nothing.
@@ -123,7 +149,7 @@ impl<'a> HybridProblem<'a> {
     /// Cost of a motion after a node, ending at a pose.
     pub(super) fn cost(&self, parent: &Node, arc: Arc, end: Pose2) -> f64 {
         let config = self.config;
-        let near = match self.obstacles.center_clearance_m(&self.body, end) {
+        let near = match self.obstacles.clearance_ceiling_m(&self.body, end) {
             clearance if clearance < config.clearance_wish_m => 1.0 - clearance.max(0.0) / config.clearance_wish_m,
             _ => 0.0,
         };
@@ -147,8 +173,4 @@ impl<'a> HybridProblem<'a> {
         })
     }
 
-    /// Whether the start heading is the planner's to choose.
-    pub(super) fn free_start(&self) -> bool {
-        self.request.start_heading == StartHeading::Any
-    }
 }

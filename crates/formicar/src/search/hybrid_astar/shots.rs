@@ -37,9 +37,9 @@ fn cost(problem: &HybridProblem, node: &Node, curve: &Curve) -> f64 {
     let mut total = 0.0;
     let mut last = *node;
     for (start, arc) in curve.placed_arcs(node.pose) {
-        let end = arc.end_from(start);
-        total += problem.cost(&last, arc, start.lerp_position(end));
-        last = Node { pose: end, arc, ..last };
+        let middle = Arc::new(arc.curvature_per_m, 0.5 * arc.signed_length_m).end_from(start);
+        total += problem.cost(&last, arc, middle);
+        last = Node { arc, ..last };
     }
     total
 }

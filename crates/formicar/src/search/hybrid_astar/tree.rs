@@ -33,12 +33,8 @@ impl Tree {
         (self.nodes.len() - 1) as u32
     }
 
-    pub(super) fn node(&self, id: u32) -> Node {
-        self.nodes[id as usize]
-    }
-
-    pub(super) fn pose(&self, id: u32) -> Pose2 {
-        self.nodes[id as usize].pose
+    pub(super) fn node(&self, id: u32) -> &Node {
+        &self.nodes[id as usize]
     }
 
     pub(super) fn add_shot(&mut self, arcs: Vec<Arc>) -> u32 {
@@ -46,12 +42,8 @@ impl Tree {
         (self.shots.len() - 1) as u32
     }
 
-    pub(super) fn shot(&self, id: u32) -> &Vec<Arc> {
-        &self.shots[id as usize]
-    }
-
-    /// The start and the arcs to a node and beyond.
-    pub(super) fn path(&self, id: u32, beyond: &[Arc]) -> (Pose2, Vec<Arc>) {
+    /// The start and the arcs to a node, and those of a shot from there.
+    pub(super) fn path(&self, id: u32, shot: Option<u32>) -> (Pose2, Vec<Arc>) {
         let mut arcs = Vec::new();
         let mut node = self.node(id);
         while let Some(parent) = node.parent {
@@ -59,7 +51,7 @@ impl Tree {
             node = self.node(parent);
         }
         arcs.reverse();
-        arcs.extend(beyond);
+        arcs.extend(shot.iter().flat_map(|&shot| &self.shots[shot as usize]));
         (node.pose, arcs)
     }
 }
