@@ -1,21 +1,31 @@
 //! A map made ready for distance queries: the map set-up that every query shares.
 
-use crate::geometry::Pose2;
-use crate::map::{BitGrid, GridFrame, OccupancyGrid};
+use crate::geometry::Point2;
+use crate::map::{BitGrid, DistanceField, GridFrame, OccupancyGrid};
+use std::ops::Range;
+use std::sync::OnceLock;
+use xxhash_rust::xxh3::xxh3_128;
 
-/// The lethal cells of a map, its frame and its distance transform.
+/// The lethal cells of a map, those on the rim of an obstacle, and the distance transform.
 #[derive(Clone, Debug)]
 pub struct ObstacleMap {
     frame: GridFrame,
     lethal: BitGrid,
+    rim: BitGrid,
+    distance: DistanceField,
+    hash: OnceLock<u128>,
 }
 
 impl ObstacleMap {
     /// Prepares a map: cost proportional to its cells.
     pub fn new(map: &OccupancyGrid) -> Self {
+        let lethal = map.lethal_cells();
         Self {
             frame: *map.frame(),
-            lethal: map.lethal_cells(),
+            rim: rim_of(&lethal),
+            distance: DistanceField::new(&lethal, DistanceField::DEFAULT_TRUNCATION_CELLS),
+            lethal,
+            hash: OnceLock::new(),
         }
     }
 
@@ -29,8 +39,147 @@ impl ObstacleMap {
         &self.lethal
     }
 
-    /// A world pose in grid coordinates.
-    pub fn to_grid(&self, world: Pose2) -> Pose2 {
-        self.frame.to_grid(world)
+    /// Distances between cell centers, to the nearest lethal one.
+    pub fn distance(&self) -> &DistanceField {
+        &self.distance
+    }
+
+    /// A 128-bit hash of what a judge sees: frame and lethal cells.
+    pub fn hash(&self) -> u128 {
+        *self.hash.get_or_init(|| {
+            let origin = self.frame.origin();
+            let numbers = [
+                self.frame.resolution_m(),
+                origin.x,
+                origin.y,
+                origin.heading,
+            ];
+            let sizes = [self.frame.n_cols() as u64, self.frame.n_rows() as u64];
+            let bytes: Vec<u8> = sizes
+                .into_iter()
+                .chain(numbers.map(f64::to_bits))
+                .chain(self.lethal.words().iter().copied())
+                .flat_map(u64::to_le_bytes)
+                .collect();
+            xxh3_128(&bytes)
+        })
+    }
+
+    /// Lethal cells with a neighbor across a side that is not lethal.
+    pub(super) fn rim(&self) -> &BitGrid {
+        &self.rim
+    }
+
+    /// Whether a point lies in a lethal square shrunk by an inset.
+    pub(super) fn covers(&self, p: Point2, inset: f64) -> bool {
+        let resolution = self.frame.resolution_m();
+        let (x, y) = (p.x / resolution, p.y / resolution);
+        let margin = inset / resolution;
+        let inner = |v: f64| (margin..=1.0 - margin).contains(&(v - v.floor()));
+        self.lethal.contains(x.floor() as i64, y.floor() as i64) && inner(x) && inner(y)
+    }
+
+    /// The radius of a disc about a point that holds no part of a lethal square; 0 off the map.
+    pub(super) fn free_radius_m(&self, p: Point2) -> f64 {
+        // From the cell's center to the point and from a square's center to its corner: half a
+        // diagonal each.
+        self.cell_distance(p).map_or(0.0, |d| {
+            (d - std::f64::consts::SQRT_2) * self.frame.resolution_m()
+        })
+    }
+
+    /// The radius of a disc about a point that certainly reaches a lethal square.
+    pub(super) fn obstacle_within_m(&self, p: Point2) -> f64 {
+        let resolution = self.frame.resolution_m();
+        match self.cell_distance(p) {
+            Some(d) if d < f64::from(self.distance.truncation_cells()) => {
+                (d + std::f64::consts::FRAC_1_SQRT_2 - 0.5) * resolution
+            }
+            Some(d) => 2.0 * d * resolution,
+            None => resolution,
+        }
+    }
+
+    /// The gap between a box and the map's border; negative where the box reaches out.
+    pub(super) fn border_gap(&self, low: Point2, high: Point2) -> f64 {
+        let extent = self.frame.extent_m();
+        low.x
+            .min(low.y)
+            .min(extent.x - high.x)
+            .min(extent.y - high.y)
+    }
+
+    /// Columns and rows of the cells that a box widened by `reach` touches.
+    pub(super) fn cells_between(
+        &self,
+        low: Point2,
+        high: Point2,
+        reach: f64,
+    ) -> (Range<usize>, Range<usize>) {
+        let scale = 1.0 / self.frame.resolution_m();
+        let range = |low: f64, high: f64, n: usize| {
+            // A closed square also touches what ends on its side: one cell more at both ends.
+            let from = ((low - reach) * scale - 1.0).max(0.0) as usize;
+            let to = ((high + reach) * scale + 2.0).clamp(0.0, n as f64) as usize;
+            from.min(to)..to
+        };
+        (
+            range(low.x, high.x, self.frame.n_cols()),
+            range(low.y, high.y, self.frame.n_rows()),
+        )
+    }
+
+    fn cell_distance(&self, p: Point2) -> Option<f64> {
+        let scale = 1.0 / self.frame.resolution_m();
+        let (col, row) = (p.x * scale, p.y * scale);
+        let inside = col >= 0.0
+            && row >= 0.0
+            && col < self.frame.n_cols() as f64
+            && row < self.frame.n_rows() as f64;
+        inside.then(|| f64::from(self.distance.squared(col as usize, row as usize)).sqrt())
+    }
+}
+
+fn rim_of(lethal: &BitGrid) -> BitGrid {
+    let (n_cols, n_rows) = (lethal.n_cols(), lethal.n_rows());
+    let mut rim = BitGrid::new(n_cols, n_rows);
+    let last_bit = 1 << ((n_cols - 1) % 64);
+    for row in 0..n_rows {
+        let here = lethal.row(row);
+        let below = lethal.row(row.saturating_sub(1));
+        let above = lethal.row((row + 1).min(n_rows - 1));
+        for w in 0..here.len() {
+            // Beyond the border nothing is free: the border itself stops the body.
+            let carry_in = if w == 0 { 1 } else { here[w - 1] >> 63 };
+            let carry_out = here.get(w + 1).map_or(last_bit, |next| next << 63);
+            let west = here[w] << 1 | carry_in;
+            let east = here[w] >> 1 | carry_out;
+            rim.row_mut(row)[w] = here[w] & !(west & east & below[w] & above[w]);
+        }
+    }
+    rim
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rim_faces_free_ground() {
+        let rows = ["#####", "#####", "#####", "##.##", "....."];
+        let map = ObstacleMap::new(&OccupancyGrid::from_rows(&rows, 1.0).unwrap());
+        let rim: Vec<_> = map.rim().iter().map(|c| (c.col, c.row)).collect();
+        assert_eq!(rim, [(0, 1), (1, 1), (3, 1), (4, 1), (2, 2)]);
+    }
+
+    #[test]
+    fn the_hash_sees_cells_and_frame() {
+        let hash = |rows: &[&str], resolution| {
+            ObstacleMap::new(&OccupancyGrid::from_rows(rows, resolution).unwrap()).hash()
+        };
+        let first = hash(&["..", ".#"], 1.0);
+        assert_eq!(first, hash(&["..", ".?"], 1.0));
+        assert_ne!(first, hash(&["..", "#."], 1.0));
+        assert_ne!(first, hash(&["..", ".#"], 2.0));
     }
 }

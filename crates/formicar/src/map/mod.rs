@@ -2,11 +2,14 @@
 
 mod bit_grid;
 mod cell;
+mod distance;
 mod frame;
 mod grid;
 mod raster;
 
 pub use bit_grid::BitGrid;
+pub(crate) use bit_grid::set_bits;
 pub use cell::Cell;
+pub use distance::DistanceField;
 pub use frame::GridFrame;
 pub use grid::{FREE, MAX_CELLS, MapError, OCCUPIED, OccupancyGrid, UNKNOWN, UnknownPolicy};

@@ -1,1 +1,9 @@
-//! scenario: to come.
+//! What is asked: a map, a vehicle and a request, checked before anything is planned.
+
+mod check;
+mod error;
+mod request;
+
+pub use check::Scenario;
+pub use error::{Endpoint, ErrorCode, ScenarioError};
+pub use request::{GoalHeading, GoalTolerance, MotionMode, Request, StartHeading};

@@ -1,0 +1,134 @@
+//! A vehicle's footprint made ready for distance queries.
+
+use crate::geometry::{ConvexPolygon, Point2};
+use crate::vehicle::{Motion, Vehicle};
+
+/// A footprint with what bounds it: a box, covering discs, and points that certainly lie in it.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// Corners around the rear axle, counter-clockwise.
+    pub(super) corners: Vec<Point2>,
+    /// Middle of the bounding box.
+    pub(super) middle: Point2,
+    /// Half the size of the bounding box.
+    pub(super) half: Point2,
+    /// Centers of equal discs that cover the bounding box, along its longer side.
+    pub(super) discs: Vec<Point2>,
+    /// Their radius.
+    pub(super) disc_radius: f64,
+    /// Radius of the largest disc about the corner mean that stays inside.
+    pub(super) inner_radius: f64,
+    /// The corner mean.
+    pub(super) inner_center: Point2,
+    /// How far cell squares shrink before a touch counts: a point may touch, a body may not.
+    pub(super) inset: f64,
+}
+
+impl Body {
+    /// The body of a vehicle with its safety margin.
+    pub fn new(vehicle: &Vehicle) -> Self {
+        match vehicle.motion() {
+            Motion::Car => Self::of(vehicle.footprint().corners().to_vec(), 0.0),
+            Motion::Point => Self::of(vec![Point2::default()], 2.0 * super::MIN_CLEARANCE_M),
+        }
+    }
+
+    fn of(corners: Vec<Point2>, inset: f64) -> Self {
+        let mut low = corners[0];
+        let mut high = corners[0];
+        for p in &corners {
+            low = Point2::new(low.x.min(p.x), low.y.min(p.y));
+            high = Point2::new(high.x.max(p.x), high.y.max(p.y));
+        }
+        let (middle, half) = (low.lerp(high, 0.5), (high - low) * 0.5);
+        let (discs, disc_radius) = covering_discs(middle, half);
+        let inner_center = corners.iter().fold(Point2::default(), |sum, &p| sum + p)
+            * (1.0 / corners.len() as f64);
+        let inner_radius = match corners.len() {
+            1 => 0.0,
+            _ => about(&corners, inner_center).inradius(),
+        };
+        Self {
+            corners,
+            middle,
+            half,
+            discs,
+            disc_radius,
+            inner_radius,
+            inner_center,
+            inset,
+        }
+    }
+
+    /// Radius of the largest disc about the corner mean that stays inside the body, metres.
+    pub fn inner_radius_m(&self) -> f64 {
+        self.inner_radius
+    }
+
+    /// The largest distance of the body from the rear-axle centre, metres.
+    pub fn reach_m(&self) -> f64 {
+        self.corners.iter().fold(0.0, |r, p| p.norm().max(r))
+    }
+}
+
+fn about(corners: &[Point2], center: Point2) -> ConvexPolygon {
+    let shifted: Vec<_> = corners.iter().map(|&p| p - center).collect();
+    ConvexPolygon::new(&shifted).expect("a footprint stays convex when moved")
+}
+
+/// As many discs as make each cover a piece about half as long as the box is wide.
+fn covering_discs(middle: Point2, half: Point2) -> (Vec<Point2>, f64) {
+    const MAX_DISCS: f64 = 16.0;
+    let (long, short) = if half.x >= half.y {
+        (half.x, half.y)
+    } else {
+        (half.y, half.x)
+    };
+    let along = if half.x >= half.y {
+        Point2::new(long, 0.0)
+    } else {
+        Point2::new(0.0, long)
+    };
+    let n_discs = if short > 0.0 {
+        (2.0 * long / short).ceil().min(MAX_DISCS)
+    } else {
+        1.0
+    };
+    let piece = long / n_discs;
+    let discs = (0..n_discs as usize)
+        .map(|i| middle + along * ((2.0 * i as f64 + 1.0) / n_discs - 1.0))
+        .collect();
+    (discs, piece.hypot(short))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn discs_cover_the_box() {
+        for vehicle in [Vehicle::lei2020(), Vehicle::f1tenth(), Vehicle::sedan()] {
+            let body = Body::new(&vehicle);
+            for p in vehicle.footprint().corners() {
+                for q in vehicle.footprint().corners() {
+                    let on_edge = p.lerp(*q, 0.37);
+                    assert!(
+                        body.discs
+                            .iter()
+                            .any(|d| d.distance(on_edge) <= body.disc_radius + 1e-12)
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_point_has_no_extent() {
+        let body = Body::new(&Vehicle::point());
+        assert_eq!(
+            (body.reach_m(), body.inner_radius, body.disc_radius),
+            (0.0, 0.0, 0.0)
+        );
+        assert!(body.inset > 0.0);
+    }
+}

@@ -1,0 +1,103 @@
+//! How a query ended.
+
+use super::{ConfigError, PlannerName};
+use crate::metrics::PathMetrics;
+use crate::numeric::Seed;
+use crate::path::{CurvePath, GridPath};
+use crate::progress::Status;
+use crate::scenario::{ErrorCode, ScenarioError};
+use crate::validation::{Certificate, Report};
+use thiserror::Error;
+
+/// A certified path, or a named reason why there is none.
+#[derive(Clone, Debug)]
+pub enum Outcome {
+    /// A path that the judge has certified.
+    Found(Box<Plan>),
+    /// No path.
+    NotFound(Box<NotFound>),
+}
+
+impl Outcome {
+    /// The plan, or the reason as an error: for callers that want `?`.
+    ///
+    /// # Errors
+    /// [`PlanError::NotFound`] where there is no path.
+    pub fn found(self) -> Result<Plan, PlanError> {
+        match self {
+            Self::Found(plan) => Ok(*plan),
+            Self::NotFound(failure) => Err(PlanError::NotFound(failure)),
+        }
+    }
+
+    /// How the query ended.
+    pub fn status(&self) -> Status {
+        match self {
+            Self::Found(_) => Status::Found,
+            Self::NotFound(failure) => failure.status,
+        }
+    }
+}
+
+/// A path with its certificate and everything that was computed on the way.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The planner that found it.
+    pub planner: PlannerName,
+    /// The seed it was given.
+    pub seed: Seed,
+    /// The path, world coordinates.
+    pub path: CurvePath,
+    /// The chain of cells behind it, for planners on the grid.
+    pub grid_path: Option<GridPath>,
+    /// The judge's word.
+    pub certificate: Certificate,
+    /// Exact metrics of the path.
+    pub metrics: PathMetrics,
+    /// Search steps done.
+    pub n_steps: u64,
+}
+
+/// Why there is no path.
+#[derive(Clone, Debug)]
+pub struct NotFound {
+    /// The named ending, never `found`.
+    pub status: Status,
+    /// What stood in the way, as a sentence.
+    pub reason: String,
+    /// The path that the judge refused, with its findings.
+    pub refused: Option<(CurvePath, Report)>,
+    /// Search steps done.
+    pub n_steps: u64,
+}
+
+/// What a caller did wrong, or (by [`Outcome::found`]) that there is no path.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum PlanError {
+    /// A request that cannot be asked.
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
+    /// A configuration outside its ranges.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// A deadline without a clock to hold it against.
+    #[error(
+        "a deadline needs an observer with a clock; hint: implement Observer::elapsed, or use a step budget"
+    )]
+    DeadlineWithoutClock,
+    /// No path, for callers that want one as an error.
+    #[error("{}: {}", .0.status.name(), .0.reason)]
+    NotFound(Box<NotFound>),
+}
+
+impl PlanError {
+    /// Nav2's code for it.
+    pub fn code(&self) -> ErrorCode {
+        match self {
+            Self::Scenario(error) => error.into(),
+            Self::NotFound(failure) => failure.status.into(),
+            _ => ErrorCode::Unknown,
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! Requests that cannot be planned for, and Nav2's codes for outcomes.
+
+use crate::progress::Status;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// What is wrong with a request.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum ScenarioError {
+    /// A number that is none.
+    #[error("{what} is not finite: {value}")]
+    NotFinite {
+        /// Which number.
+        what: &'static str,
+        /// As printed.
+        value: String,
+    },
+    /// A number outside its range.
+    #[error("{what} = {value}; it must be {range}")]
+    OutOfRange {
+        /// Which number.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// What is allowed.
+        range: &'static str,
+    },
+    /// A pose off the map.
+    #[error("{which} ({x:.3}, {y:.3}) m lies outside the map, which spans ({low_x:.3}, {low_y:.3}) to ({high_x:.3}, {high_y:.3}) m{}", yaw_note(*yaw_rad))]
+    OutsideMap {
+        /// Start or goal.
+        which: Endpoint,
+        /// Metres.
+        x: f64,
+        /// Metres.
+        y: f64,
+        /// Lower left corner of the map, metres.
+        low_x: f64,
+        /// Lower left corner of the map, metres.
+        low_y: f64,
+        /// Opposite corner, metres, before the map's yaw is applied.
+        high_x: f64,
+        /// Opposite corner, metres, before the map's yaw is applied.
+        high_y: f64,
+        /// The map's yaw about its lower left corner.
+        yaw_rad: f64,
+    },
+    /// A pose where the vehicle does not fit.
+    #[error("{which} ({x:.3}, {y:.3}) m: {problem}; hint: {hint}")]
+    Occupied {
+        /// Start or goal.
+        which: Endpoint,
+        /// Metres.
+        x: f64,
+        /// Metres.
+        y: f64,
+        /// What is in the way, and by how much.
+        problem: String,
+        /// Where the vehicle would fit.
+        hint: String,
+    },
+}
+
+fn yaw_note(yaw_rad: f64) -> String {
+    if yaw_rad == 0.0 {
+        String::new()
+    } else {
+        format!(" (turned by {yaw_rad:.4} rad about the first)")
+    }
+}
+
+/// Which end of a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Endpoint {
+    /// The first pose.
+    Start,
+    /// The last pose.
+    Goal,
+}
+
+impl std::fmt::Display for Endpoint {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Start => "start",
+            Self::Goal => "goal",
+        })
+    }
+}
+
+/// The outcome codes of Nav2's `ComputePathToPose` action.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[repr(u16)]
+pub enum ErrorCode {
+    /// A path was found.
+    None = 0,
+    /// Any failure without a code of its own.
+    Unknown = 200,
+    /// No such planner.
+    InvalidPlanner = 201,
+    /// A frame could not be transformed.
+    TfError = 202,
+    /// The start lies off the map.
+    StartOutsideMap = 203,
+    /// The goal lies off the map.
+    GoalOutsideMap = 204,
+    /// The vehicle does not fit at the start.
+    StartOccupied = 205,
+    /// The vehicle does not fit at the goal.
+    GoalOccupied = 206,
+    /// The deadline passed.
+    Timeout = 207,
+    /// No path was found.
+    NoValidPath = 208,
+}
+
+impl ErrorCode {
+    /// Nav2's name of the code.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "NONE",
+            Self::Unknown => "UNKNOWN",
+            Self::InvalidPlanner => "INVALID_PLANNER",
+            Self::TfError => "TF_ERROR",
+            Self::StartOutsideMap => "START_OUTSIDE_MAP",
+            Self::GoalOutsideMap => "GOAL_OUTSIDE_MAP",
+            Self::StartOccupied => "START_OCCUPIED",
+            Self::GoalOccupied => "GOAL_OCCUPIED",
+            Self::Timeout => "TIMEOUT",
+            Self::NoValidPath => "NO_VALID_PATH",
+        }
+    }
+
+    /// Nav2's number of the code.
+    pub fn number(self) -> u16 {
+        self as u16
+    }
+}
+
+impl From<Status> for ErrorCode {
+    fn from(status: Status) -> Self {
+        match status {
+            Status::Found => Self::None,
+            Status::NoPath | Status::Infeasible | Status::BudgetExhausted => Self::NoValidPath,
+            Status::TimedOut => Self::Timeout,
+            Status::Cancelled => Self::Unknown,
+        }
+    }
+}
+
+impl From<&ScenarioError> for ErrorCode {
+    fn from(error: &ScenarioError) -> Self {
+        match error {
+            ScenarioError::OutsideMap {
+                which: Endpoint::Start,
+                ..
+            } => Self::StartOutsideMap,
+            ScenarioError::OutsideMap {
+                which: Endpoint::Goal,
+                ..
+            } => Self::GoalOutsideMap,
+            ScenarioError::Occupied {
+                which: Endpoint::Start,
+                ..
+            } => Self::StartOccupied,
+            ScenarioError::Occupied {
+                which: Endpoint::Goal,
+                ..
+            } => Self::GoalOccupied,
+            _ => Self::Unknown,
+        }
+    }
+}

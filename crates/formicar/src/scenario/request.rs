@@ -1,0 +1,100 @@
+//! One question to a planner.
+
+use crate::geometry::Pose2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::time::Duration;
+
+/// From where to where, and under which conditions. World coordinates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Request {
+    /// Pose of the rear-axle centre at the beginning.
+    pub start: Pose2,
+    /// Pose of the rear-axle centre at the end.
+    pub goal: Pose2,
+    /// Whether the start heading is fixed.
+    pub start_heading: StartHeading,
+    /// Whether the goal heading is fixed.
+    pub goal_heading: GoalHeading,
+    /// How far from the goal a path may end.
+    pub goal_tolerance: GoalTolerance,
+    /// Which gears may be used.
+    pub motion: MotionMode,
+    /// Time after which to give up; it needs an observer with a clock, and alone can make two
+    /// runs differ.
+    pub deadline: Option<Duration>,
+    /// Search steps after which to give up.
+    pub budget_steps: Option<u64>,
+}
+
+impl Request {
+    /// From `start` to `goal` with exact headings, both gears, and no limits.
+    pub fn new(start: Pose2, goal: Pose2) -> Self {
+        Self {
+            start,
+            goal,
+            start_heading: StartHeading::default(),
+            goal_heading: GoalHeading::default(),
+            goal_tolerance: GoalTolerance::default(),
+            motion: MotionMode::default(),
+            deadline: None,
+            budget_steps: None,
+        }
+    }
+}
+
+/// Whether the start heading is fixed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum StartHeading {
+    /// As given.
+    #[default]
+    Exact,
+    /// The planner chooses.
+    Any,
+}
+
+/// Whether the goal heading is fixed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum GoalHeading {
+    /// As given.
+    #[default]
+    Exact,
+    /// As given or opposite.
+    Bidirectional,
+    /// The planner chooses.
+    Any,
+}
+
+/// Which gears may be used.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MotionMode {
+    /// Forward only.
+    Forward,
+    /// Forward and in reverse, reverse at a penalty.
+    #[default]
+    Reverse,
+}
+
+/// How far from the goal a path may end.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GoalTolerance {
+    /// Distance in metres, above 0.
+    #[serde(rename = "xy")]
+    pub xy_m: f64,
+    /// Heading difference in radians, above 0.
+    #[serde(rename = "yaw")]
+    pub yaw_rad: f64,
+}
+
+impl Default for GoalTolerance {
+    fn default() -> Self {
+        Self {
+            xy_m: 0.01,
+            yaw_rad: 0.01,
+        }
+    }
+}

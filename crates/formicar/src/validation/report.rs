@@ -1,0 +1,99 @@
+//! What the judge says: every violation, or a certificate.
+
+use crate::geometry::Pose2;
+use serde::Serialize;
+use std::ops::Deref;
+
+/// The judge's findings on one path; world coordinates.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// Whether nothing was violated.
+    pub valid: bool,
+    /// Least distance from the footprint (with its safety margin) to an occupied cell square or
+    /// the map border along the whole swept path; 0 when touching.
+    pub min_clearance_m: f64,
+    /// The pose where the clearance is least.
+    pub tightest: Pose2,
+    /// Arc length at that pose.
+    pub tightest_s_m: f64,
+    /// Largest absolute curvature.
+    pub max_curvature_per_m: f64,
+    /// Distance of the last pose from the goal; 0 where no goal was given.
+    pub goal_error_m: f64,
+    /// Heading difference of the last pose from the goal, as the goal-heading mode counts it.
+    pub goal_error_rad: f64,
+    /// What is wrong, in order of arc length.
+    pub violations: Vec<Violation>,
+    /// Hash of what the judge saw of the map, 32 hexadecimal digits.
+    pub map_hash: String,
+    /// Hash of what the judge used of the vehicle.
+    pub vehicle_hash: String,
+    /// Hash of the path.
+    pub path_hash: String,
+}
+
+/// One thing that is wrong with a path.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Violation {
+    /// What kind of thing.
+    pub kind: ViolationKind,
+    /// Arc length where it is worst (or where it lies), metres.
+    pub s_m: f64,
+    /// Pose there.
+    pub pose: Pose2,
+    /// The value found, in the unit of the limit.
+    pub amount: f64,
+    /// The value allowed.
+    pub limit: f64,
+    /// Both as a sentence with units.
+    pub message: String,
+}
+
+/// Kinds of violations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum ViolationKind {
+    /// The body touches an occupied cell.
+    Collision,
+    /// The body leaves the map.
+    LeavesMap,
+    /// The curvature exceeds the vehicle's limit.
+    Curvature,
+    /// Two segments do not join.
+    Discontinuity,
+    /// The path does not begin at the start.
+    Start,
+    /// The path does not end at the goal.
+    Goal,
+    /// A gear that the request forbids.
+    Gear,
+    /// A number that is none, or a negative length.
+    Malformed,
+}
+
+/// The judge's word that a path can be driven. Only the judge makes one.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct Certificate(Report);
+
+impl Report {
+    /// The certificate, if nothing was violated; otherwise the report back.
+    ///
+    /// # Errors
+    /// The report itself, where something was violated.
+    pub fn certify(self) -> Result<Certificate, Box<Self>> {
+        if self.valid && self.violations.is_empty() {
+            Ok(Certificate(self))
+        } else {
+            Err(Box::new(self))
+        }
+    }
+}
+
+impl Deref for Certificate {
+    type Target = Report;
+    fn deref(&self) -> &Report {
+        &self.0
+    }
+}
