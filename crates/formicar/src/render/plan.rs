@@ -1,25 +1,13 @@
 //! The picture of a plan: map, poses, path, swept ground, tightest place and strip charts.
 
-use super::Picture;
+use super::{Picture, PoseMark, ProfilePoint, Scene, strip_charts};
 use crate::geometry::{Point2, Pose2};
 use crate::map::OccupancyGrid;
-use crate::path::{CurvePath, Direction};
+use crate::path::CurvePath;
 use crate::vehicle::Vehicle;
 
-/// What the strip charts show at one place of a path.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ProfilePoint {
-    /// Arc length driven so far, metres.
-    pub s_m: f64,
-    /// Curvature of the rear-axle centre's path, positive left.
-    pub curvature_per_m: f64,
-    /// Steering angle, where the wheelbase is known.
-    pub steer_rad: Option<f64>,
-    /// Distance from the footprint to the nearest obstacle; points that are not finite are left out.
-    pub clearance_m: f64,
-    /// The gear in which the place is reached.
-    pub direction: Direction,
-}
+/// A detail is shown where it enlarges the map at least so many times.
+const WORTHWHILE_ENLARGEMENT: f64 = 1.5;
 
 /// All that the picture of a plan, or of a failure, is made from.
 #[derive(Clone, Copy, Debug)]
@@ -44,10 +32,38 @@ pub struct PlanPicture<'a> {
     pub caption: &'a str,
 }
 
-/// The picture of a plan.
+/// The picture of a plan, or of a request without one.
 pub fn plan_picture(plan: &PlanPicture) -> Picture {
+    let scene = drawn(Scene::new(plan.map), plan);
+    let detail = plan.tightest.and_then(|(place, clearance_m)| {
+        let detail = Scene::detail(plan.map, place, detail_half_side_m(plan));
+        let heading = format!("tightest place: {clearance_m:.2} m");
+        let enlarges = detail.px_per_m() >= WORTHWHILE_ENLARGEMENT * scene.px_per_m();
+        enlarges.then(|| (drawn(detail, plan).without_legend(), heading))
+    });
     Picture {
         title: plan.title.to_owned(),
         caption: plan.caption.to_owned(),
+        scene: Some(scene),
+        detail,
+        charts: strip_charts(plan.profile, plan.vehicle),
     }
+}
+
+fn drawn(mut scene: Scene, plan: &PlanPicture) -> Scene {
+    if let Some(path) = plan.path {
+        scene.swept(path, plan.vehicle).curve(path);
+    }
+    scene.pose(plan.start, plan.vehicle, PoseMark::Start);
+    scene.pose(plan.goal, plan.vehicle, PoseMark::Goal);
+    if let Some((place, clearance_m)) = plan.tightest {
+        scene.tightest(place, clearance_m);
+    }
+    scene
+}
+
+/// Two vehicles across, and enough cells to recognize the place.
+fn detail_half_side_m(plan: &PlanPicture) -> f64 {
+    let (low, high) = plan.vehicle.footprint().bounds();
+    (1.1 * (high.x - low.x)).max(6.0 * plan.map.frame().resolution_m())
 }
