@@ -38,8 +38,16 @@ impl ObstacleMap {
         })
     }
 
-    /// Least clearance of a single piece, and no less than what bounds say where that is enough.
-    pub(super) fn at_least(&self, sweep: &Sweep) -> f64 {
+    /// A quick lower bound of the clearance along a drive, metres; may be negative.
+    pub fn clearance_bound_m(&self, body: &Body, drive: &Drive) -> f64 {
+        let bounds = drive
+            .pieces(drive.n_pieces(body))
+            .map(|piece| self.at_least(&Sweep::new(body, piece)));
+        bounds.fold(f64::INFINITY, f64::min)
+    }
+
+    /// A quick lower bound of a single piece's distance, by discs and the distance transform.
+    fn at_least(&self, sweep: &Sweep) -> f64 {
         let (discs, radius) = sweep.discs();
         let near = discs
             .map(|p| self.free_radius_m(p))

@@ -55,9 +55,9 @@ impl Drive {
             * (self.signed_length_m.abs() + body.reach_m())
     }
 
-    /// How many pieces a body's sweep needs, so that each turns by a quarter circle at most and
-    /// moves by about half of the body.
-    pub(super) fn n_pieces(&self, body: &Body) -> usize {
+    /// How many pieces a body's sweep is best cut into: each turns by less than a quarter circle
+    /// and moves by about half of the body.
+    pub fn n_pieces(&self, body: &Body) -> usize {
         let turn = (self.curvature_per_m * self.signed_length_m).abs();
         let by_length = self.signed_length_m.abs() / body.half.x.max(body.half.y).max(0.5);
         by_length.max(turn / (0.99 * FRAC_PI_2)).ceil().max(1.0) as usize

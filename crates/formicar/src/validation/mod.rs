@@ -1,7 +1,25 @@
 //! The judge: whether a vehicle can drive a path, proven independently of how it was found.
+//!
+//! A path is valid when its swept body keeps more than [`crate::collision::MIN_CLEARANCE_M`] from
+//! every lethal cell square and from the border, its curvature stays within the vehicle's limit,
+//! its segments join, and it goes from start to goal in the gears that the request allows. Only a
+//! valid path gets a [`Certificate`], and only the judge makes one.
 
+mod ends;
 mod foreign;
+mod judge;
 mod report;
+mod samples;
+mod shape;
+mod swept;
 
 pub use foreign::{FOREIGN_CURVATURE_SLACK, path_through_points, path_through_poses};
+pub use judge::{judge, judge_path};
 pub use report::{Certificate, Report, Violation, ViolationKind};
+pub use samples::{Samples, SamplesError};
+
+/// How far two segments may miss each other: metres, and radians.
+pub const JOINT_TOLERANCE: f64 = 1e-6;
+
+/// How far, relative to the limit, a curvature may exceed it.
+pub const CURVATURE_TOLERANCE: f64 = 1e-9;

@@ -1,0 +1,106 @@
+//! One verdict from all checks.
+
+use super::report::{Report, Violation, ViolationKind};
+use super::{CURVATURE_TOLERANCE, ends, shape, swept};
+use crate::collision::ObstacleMap;
+use crate::geometry::Pose2;
+use crate::path::CurvePath;
+use crate::scenario::Request;
+use crate::vehicle::Vehicle;
+use xxhash_rust::xxh3::xxh3_128;
+
+/// Judges a path against everything that a request asks for.
+pub fn judge(
+    obstacles: &ObstacleMap,
+    vehicle: &Vehicle,
+    request: &Request,
+    path: &CurvePath,
+) -> Report {
+    let mut report = judge_path(obstacles, vehicle, path, CURVATURE_TOLERANCE);
+    if report
+        .violations
+        .iter()
+        .any(|v| v.kind == ViolationKind::Malformed)
+    {
+        return report;
+    }
+    let ends = ends::check(vehicle, request, path);
+    report.goal_error_m = ends.goal_error_m;
+    report.goal_error_rad = ends.goal_error_rad;
+    finish(report, ends.violations)
+}
+
+/// Judges a path by itself: swept collision, border, curvature and joints, with a relative slack
+/// on the curvature limit for paths that were measured or sampled.
+pub fn judge_path(
+    obstacles: &ObstacleMap,
+    vehicle: &Vehicle,
+    path: &CurvePath,
+    curvature_slack: f64,
+) -> Report {
+    let report = blank(obstacles, vehicle, path);
+    let malformed = shape::malformed(path);
+    if !malformed.is_empty() {
+        return finish(report, malformed);
+    }
+    let swept = swept::check(obstacles, vehicle, path);
+    let report = Report {
+        min_clearance_m: swept.min_clearance_m,
+        tightest: swept.tightest,
+        tightest_s_m: swept.tightest_s_m,
+        max_curvature_per_m: shape::max_curvature_per_m(path),
+        ..report
+    };
+    let mut violations = shape::check(vehicle, path, curvature_slack);
+    violations.extend(swept.violations);
+    finish(report, violations)
+}
+
+fn blank(obstacles: &ObstacleMap, vehicle: &Vehicle, path: &CurvePath) -> Report {
+    let hex = |hash: u128| format!("{hash:032x}");
+    Report {
+        valid: true,
+        min_clearance_m: 0.0,
+        tightest: path.start(),
+        tightest_s_m: 0.0,
+        max_curvature_per_m: 0.0,
+        goal_error_m: 0.0,
+        goal_error_rad: 0.0,
+        violations: Vec::new(),
+        map_hash: hex(obstacles.hash()),
+        vehicle_hash: hex(vehicle.hash()),
+        path_hash: hex(path_hash(path)),
+    }
+}
+
+fn finish(mut report: Report, violations: Vec<Violation>) -> Report {
+    report.violations.extend(violations);
+    report.violations.sort_by(|a, b| a.s_m.total_cmp(&b.s_m));
+    report.valid = report.violations.is_empty();
+    report
+}
+
+/// A 128-bit hash of a path's numbers, headings wrapped as files hold them.
+fn path_hash(path: &CurvePath) -> u128 {
+    let pose = |pose: Pose2| {
+        let Pose2 { x, y, heading } = pose.wrapped();
+        [x, y, heading]
+    };
+    let segments = path.segments().iter().flat_map(|s| {
+        let [x, y, heading] = pose(s.start);
+        [
+            x,
+            y,
+            heading,
+            s.curvature_per_m,
+            s.length_m,
+            s.direction.sign(),
+        ]
+    });
+    let bytes: Vec<u8> = pose(path.start())
+        .into_iter()
+        .chain(segments)
+        .flat_map(f64::to_le_bytes)
+        .collect();
+    xxh3_128(&bytes)
+}

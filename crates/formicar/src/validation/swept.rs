@@ -1,0 +1,179 @@
+//! The swept body against obstacles and border: tightest pieces first.
+
+use super::report::{Violation, ViolationKind};
+use crate::collision::{Body, Drive, MIN_CLEARANCE_M, ObstacleMap, Overlap};
+use crate::geometry::Pose2;
+use crate::path::CurvePath;
+use crate::vehicle::Vehicle;
+
+/// Where the body comes nearest to anything, and where it touches.
+pub(super) struct Swept {
+    pub(super) min_clearance_m: f64,
+    pub(super) tightest: Pose2,
+    pub(super) tightest_s_m: f64,
+    pub(super) violations: Vec<Violation>,
+}
+
+/// A piece of the path with a lower bound of its clearance.
+struct Piece {
+    drive: Drive,
+    s_m: f64,
+    bound_m: f64,
+}
+
+pub(super) fn check(obstacles: &ObstacleMap, vehicle: &Vehicle, path: &CurvePath) -> Swept {
+    let body = Body::new(vehicle);
+    let mut pieces = cut(obstacles, &body, path);
+    pieces.sort_by(|a, b| a.bound_m.total_cmp(&b.bound_m));
+    let mut least = f64::INFINITY;
+    let mut tightest = 0;
+    let mut touching = Vec::new();
+    for (i, piece) in pieces.iter().enumerate() {
+        if piece.bound_m >= least.max(2.0 * MIN_CLEARANCE_M) {
+            break;
+        }
+        let clearance =
+            obstacles.drive_clearance_m(&body, &piece.drive, least.max(2.0 * MIN_CLEARANCE_M));
+        if clearance < least {
+            (least, tightest) = (clearance, i);
+        }
+        // What a point may touch, and what a body may not, is the collision module's to say.
+        if clearance <= 2.0 * MIN_CLEARANCE_M && !obstacles.is_free(&body, &piece.drive) {
+            touching.push(piece);
+        }
+    }
+    let violations = collisions(obstacles, &body, touching);
+    let (pose, driven_m) = narrowest(obstacles, &body, &pieces[tightest].drive);
+    Swept {
+        min_clearance_m: if violations.is_empty() { least } else { 0.0 },
+        tightest: obstacles.frame().to_world(pose).wrapped(),
+        tightest_s_m: pieces[tightest].s_m + driven_m,
+        violations,
+    }
+}
+
+fn cut(obstacles: &ObstacleMap, body: &Body, path: &CurvePath) -> Vec<Piece> {
+    let frame = obstacles.frame();
+    let piece = |drive: Drive, s_m| Piece {
+        bound_m: obstacles.clearance_bound_m(body, &drive),
+        drive,
+        s_m,
+    };
+    let mut s_m = 0.0;
+    let mut pieces = Vec::new();
+    for segment in path.segments() {
+        let drive = Drive {
+            start: frame.to_grid(segment.start),
+            curvature_per_m: segment.curvature_per_m,
+            signed_length_m: segment.direction.sign() * segment.length_m,
+        };
+        let n = drive.n_pieces(body);
+        let step = segment.length_m / n as f64;
+        pieces.extend(
+            drive
+                .pieces(n)
+                .enumerate()
+                .map(|(i, part)| piece(part, s_m + step * i as f64)),
+        );
+        s_m += segment.length_m;
+    }
+    if pieces.is_empty() {
+        pieces.push(piece(Drive::at(frame.to_grid(path.start())), 0.0));
+    }
+    pieces
+}
+
+/// The pose of least clearance on a piece, and the driven length up to it: samples, then golden
+/// section around the best.
+fn narrowest(obstacles: &ObstacleMap, body: &Body, drive: &Drive) -> (Pose2, f64) {
+    const N_SAMPLES: usize = 16;
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    let clearance = |t: f64| obstacles.clearance_m(body, drive.pose_at(t));
+    let sample = |i: usize| i as f64 / N_SAMPLES as f64;
+    let best = (0..=N_SAMPLES)
+        .map(sample)
+        .min_by(|&a, &b| clearance(a).total_cmp(&clearance(b)))
+        .unwrap_or(0.0);
+    let width = 1.0 / N_SAMPLES as f64;
+    let (mut low, mut high) = ((best - width).max(0.0), (best + width).min(1.0));
+    while (high - low) * drive.signed_length_m.abs() > 1e-3 {
+        let (left, right) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
+        if clearance(left) <= clearance(right) {
+            high = right
+        } else {
+            low = left
+        }
+    }
+    let middle = 0.5 * (low + high);
+    let t = if clearance(best) <= clearance(middle) {
+        best
+    } else {
+        middle
+    };
+    (drive.pose_at(t), t * drive.signed_length_m.abs())
+}
+
+/// One violation for every stretch of neighboring pieces that touch something.
+fn collisions(obstacles: &ObstacleMap, body: &Body, mut touching: Vec<&Piece>) -> Vec<Violation> {
+    touching.sort_by(|a, b| a.s_m.total_cmp(&b.s_m));
+    let end = |piece: &Piece| piece.s_m + piece.drive.signed_length_m.abs();
+    touching
+        .chunk_by(|a, b| b.s_m - end(a) < 1e-9)
+        .map(|stretch| {
+            let last = stretch[stretch.len() - 1];
+            violation(obstacles, body, stretch, end(last))
+        })
+        .collect()
+}
+
+fn violation(obstacles: &ObstacleMap, body: &Body, stretch: &[&Piece], end_m: f64) -> Violation {
+    const N_SAMPLES: usize = 16;
+    let touch = Overlap {
+        cell: None,
+        depth_m: 0.0,
+        n_cells: 1,
+    };
+    let poses = stretch.iter().flat_map(|piece| {
+        (0..=N_SAMPLES).map(|i| {
+            let t = i as f64 / N_SAMPLES as f64;
+            let pose = piece.drive.pose_at(t);
+            let overlap = obstacles.overlap(body, pose).unwrap_or(touch);
+            (
+                overlap,
+                pose,
+                piece.s_m + t * piece.drive.signed_length_m.abs(),
+            )
+        })
+    });
+    let (overlap, pose, s_m) = poses
+        .reduce(|deepest, next| {
+            if next.0.depth_m > deepest.0.depth_m {
+                next
+            } else {
+                deepest
+            }
+        })
+        .unwrap_or((touch, stretch[0].drive.start, stretch[0].s_m));
+    let leaves = overlap.cell.is_none() && overlap.n_cells == 0;
+    let what = match overlap.cell {
+        Some(cell) => format!("overlaps cell ({}, {}) by", cell.col, cell.row),
+        None if leaves => "leaves the map by".to_owned(),
+        None => "touches an obstacle between two poses, overlap".to_owned(),
+    };
+    let pose = obstacles.frame().to_world(pose).wrapped();
+    Violation {
+        kind: if leaves {
+            ViolationKind::LeavesMap
+        } else {
+            ViolationKind::Collision
+        },
+        s_m,
+        pose,
+        amount: -overlap.depth_m,
+        limit: MIN_CLEARANCE_M,
+        message: format!(
+            "the body {what} {:.4} m at ({:.3}, {:.3}), heading {:.4}, s = {s_m:.3} m (touching from s = {:.3} to {end_m:.3} m); the least clearance allowed is {MIN_CLEARANCE_M} m",
+            overlap.depth_m, pose.x, pose.y, pose.heading, stretch[0].s_m
+        ),
+    }
+}
