@@ -2,8 +2,10 @@
 
 mod parameters;
 mod presets;
+mod primitives;
 mod shape;
 
 pub use parameters::{FootprintSpec, VehicleParameters};
 pub use presets::PRESET_NAMES;
+pub use primitives::{Alignment, Gears, Primitive, PrimitiveSet};
 pub use shape::{Motion, Vehicle, VehicleError};
