@@ -1,25 +1,10 @@
 //! The picture of a plan: map, poses, path, swept ground, tightest place and strip charts.
 
-use super::Picture;
+use super::{Picture, PoseMark, ProfilePoint, Scene, strip_charts};
 use crate::geometry::{Point2, Pose2};
 use crate::map::OccupancyGrid;
-use crate::path::{CurvePath, Direction};
+use crate::path::CurvePath;
 use crate::vehicle::Vehicle;
-
-/// What the strip charts show at one place of a path.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ProfilePoint {
-    /// Arc length driven so far, metres.
-    pub s_m: f64,
-    /// Curvature of the rear-axle centre's path, positive left.
-    pub curvature_per_m: f64,
-    /// Steering angle, where the wheelbase is known.
-    pub steer_rad: Option<f64>,
-    /// Distance from the footprint to the nearest obstacle; points that are not finite are left out.
-    pub clearance_m: f64,
-    /// The gear in which the place is reached.
-    pub direction: Direction,
-}
 
 /// All that the picture of a plan, or of a failure, is made from.
 #[derive(Clone, Copy, Debug)]
@@ -44,10 +29,39 @@ pub struct PlanPicture<'a> {
     pub caption: &'a str,
 }
 
-/// The picture of a plan.
+/// The picture of a plan, or of a request without one.
 pub fn plan_picture(plan: &PlanPicture) -> Picture {
+    let detail = plan.tightest.map(|(place, clearance_m)| {
+        let half_side_m = detail_half_side_m(plan);
+        let scene = drawn(Scene::detail(plan.map, place, half_side_m), plan);
+        (
+            scene.without_legend(),
+            format!("tightest place: {clearance_m:.2} m"),
+        )
+    });
     Picture {
         title: plan.title.to_owned(),
         caption: plan.caption.to_owned(),
+        scene: Some(drawn(Scene::new(plan.map), plan)),
+        detail,
+        charts: strip_charts(plan.profile, plan.vehicle),
     }
+}
+
+fn drawn(mut scene: Scene, plan: &PlanPicture) -> Scene {
+    if let Some(path) = plan.path {
+        scene.swept(path, plan.vehicle).curve(path);
+    }
+    scene.pose(plan.start, plan.vehicle, PoseMark::Start);
+    scene.pose(plan.goal, plan.vehicle, PoseMark::Goal);
+    if let Some((place, clearance_m)) = plan.tightest {
+        scene.tightest(place, clearance_m);
+    }
+    scene
+}
+
+/// A few vehicles across, and enough cells to recognise the place.
+fn detail_half_side_m(plan: &PlanPicture) -> f64 {
+    let (low, high) = plan.vehicle.footprint().bounds();
+    (1.6 * (high.x - low.x)).max(8.0 * plan.map.frame().resolution_m())
 }
