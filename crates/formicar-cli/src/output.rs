@@ -14,7 +14,10 @@ pub(crate) struct Target<Kind> {
 impl<Kind: Copy> Target<Kind> {
     /// A target whose extension is one of `kinds` and whose folder takes files.
     pub(crate) fn new(path: &Path, kinds: &[(&str, Kind)]) -> Result<Self> {
-        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
+        let extension = path
+            .extension()
+            .and_then(|e| e.to_str())
+            .unwrap_or_default();
         let kind = kinds
             .iter()
             .find(|(known, _)| extension.eq_ignore_ascii_case(known));
@@ -35,7 +38,7 @@ impl<Kind: Copy> Target<Kind> {
 
     /// Writes the whole file, or nothing.
     pub(crate) fn write(&self, bytes: &[u8]) -> Result<()> {
-        formicar::map::format::write_atomically(&self.path, bytes)
+        crate::pending::format::write_atomically(&self.path, bytes)
             .with_context(|| format!("{} cannot be written", self.path.display()))
     }
 
@@ -54,7 +57,10 @@ fn check_writable(path: &Path) -> Result<()> {
         _ => Path::new("."),
     };
     if !folder.is_dir() {
-        bail!("the folder {} does not exist; hint: make it first", folder.display());
+        bail!(
+            "the folder {} does not exist; hint: make it first",
+            folder.display()
+        );
     }
     let probe = folder.join(format!(".formicar-probe-{}", std::process::id()));
     fs::write(&probe, b"").context("hint: give a folder that takes files")?;

@@ -29,12 +29,15 @@ pub(crate) fn load(
 }
 
 fn read(path: &Path) -> Result<Table> {
-    let text = super::ground::read_text(path)?;
+    let text = super::files::read_text(path)?;
     let table: Table = text
         .parse()
         .map_err(|e| anyhow!("{}: {}", path.display(), one_line(&e)))?;
     let known = known_keys();
-    match keys_of(&table, "").into_iter().find(|k| !is_known(k, &known)) {
+    match keys_of(&table, "")
+        .into_iter()
+        .find(|k| !is_known(k, &known))
+    {
         Some(key) => Err(unknown_key(&key, &known)).with_context(|| path.display().to_string()),
         None => Ok(table),
     }
@@ -99,7 +102,10 @@ fn is_known(key: &str, known: &[String]) -> bool {
 }
 
 fn unknown_key(key: &str, known: &[String]) -> anyhow::Error {
-    anyhow!("no planner parameter is named {key:?}; there are {}", known.join(", "))
+    anyhow!(
+        "no planner parameter is named {key:?}; there are {}",
+        known.join(", ")
+    )
 }
 
 fn one_line(error: &toml::de::Error) -> String {
@@ -132,7 +138,12 @@ mod tests {
 
     #[test]
     fn values_out_of_range_or_kind_are_refused() {
-        for bad in ["hybrid_astar.weight=0", "hybrid_astar.weight=fast", "planner=ants", "planner"] {
+        for bad in [
+            "hybrid_astar.weight=0",
+            "hybrid_astar.weight=fast",
+            "planner=ants",
+            "planner",
+        ] {
             assert!(with(&[bad]).is_err(), "{bad}");
         }
         assert!(with(&["hybrid_astar.weight=nan"]).is_err());

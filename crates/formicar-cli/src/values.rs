@@ -122,7 +122,9 @@ mod tests {
 
     #[test]
     fn refuses_what_is_no_pose() {
-        for bad in ["", "1,2", "1,2,3,4", "a,2,3", "nan,0,0", "1,inf,0", "1,2,deg"] {
+        for bad in [
+            "", "1,2", "1,2,3,4", "a,2,3", "nan,0,0", "1,inf,0", "1,2,deg",
+        ] {
             assert!(pose(bad).is_err(), "{bad}");
         }
     }
@@ -131,7 +133,13 @@ mod tests {
     fn reads_polygons_in_both_ways() {
         let plain = polygon("0,0 2,0 2,-1").unwrap();
         assert_eq!(plain, polygon("[[0, 0], [2, 0], [2, -1]]").unwrap());
-        for bad in ["0,0 1,1", "0,0 1 2,2", "[[0,0],[1,1]]", "[[0]]", "0,0 1,1 2,nan"] {
+        for bad in [
+            "0,0 1,1",
+            "0,0 1 2,2",
+            "[[0,0],[1,1]]",
+            "[[0]]",
+            "0,0 1,1 2,nan",
+        ] {
             assert!(polygon(bad).is_err(), "{bad}");
         }
     }
