@@ -34,22 +34,18 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
-    /// Says on stderr what is wrong; a reader that has left is told nothing.
-    pub(crate) fn explain(&self) {
-        let text = match self {
-            Self::Input(error) => format!("error: {error:#}"),
-            Self::Output(error) if error.kind() == io::ErrorKind::BrokenPipe => return,
-            Self::Output(error) => format!("error: the output cannot be written: {error}"),
+    /// Says on stderr what is wrong, and gives the exit code; a reader of stdout that has left
+    /// early is no failure.
+    pub(crate) fn explain(&self) -> ExitCode {
+        let (text, code) = match self {
+            Self::Input(error) => (format!("error: {error:#}"), 2),
+            Self::Output(error) if error.kind() == io::ErrorKind::BrokenPipe => {
+                return ExitCode::SUCCESS;
+            }
+            Self::Output(error) => (format!("error: the output cannot be written: {error}"), 1),
         };
         note(&text);
-    }
-
-    pub(crate) fn exit_code(&self) -> ExitCode {
-        ExitCode::from(match self {
-            Self::Input(_) => 2,
-            Self::Output(error) if error.kind() == io::ErrorKind::BrokenPipe => 0,
-            Self::Output(_) => 1,
-        })
+        ExitCode::from(code)
     }
 }
 

@@ -21,6 +21,11 @@ use std::io::{BufWriter, Write};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    // A panic is a fault of ours: its message stands on stderr already.
+    std::panic::catch_unwind(run).unwrap_or(ExitCode::from(1))
+}
+
+fn run() -> ExitCode {
     let cli = match args::Cli::try_parse() {
         Ok(cli) => cli,
         Err(message) => {
@@ -29,17 +34,10 @@ fn main() -> ExitCode {
             return ExitCode::from(u8::try_from(message.exit_code()).unwrap_or(2));
         }
     };
-    let stdout = std::io::stdout();
-    let mut out = BufWriter::new(stdout.lock());
+    let mut out = BufWriter::new(std::io::stdout().lock());
     let ending = commands::run(&cli.command, &mut out).and_then(|ending| {
         out.flush()?;
         Ok(ending)
     });
-    match ending {
-        Ok(ending) => ending.into(),
-        Err(failure) => {
-            failure.explain();
-            failure.exit_code()
-        }
-    }
+    ending.map_or_else(|failure| failure.explain(), ExitCode::from)
 }

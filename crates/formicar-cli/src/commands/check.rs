@@ -26,6 +26,8 @@ struct Checked {
     source: Source,
     /// Share by which the curvature may exceed the vehicle's limit.
     curvature_slack: f64,
+    /// How far the path that was judged may pass by the samples: they are rounded.
+    sample_deviation_m: f64,
     length_m: f64,
     n_segments: usize,
     certificate: Report,
@@ -56,6 +58,7 @@ struct Matches {
 struct Subject {
     path: CurvePath,
     source: Source,
+    sample_deviation_m: f64,
     request: Option<Request>,
     hashes: Option<CertificateHashes>,
 }
@@ -87,6 +90,7 @@ fn read(path: &Path, vehicle: &Vehicle) -> Result<Subject> {
         return Ok(Subject {
             path: stored.path,
             source: Source::Segments,
+            sample_deviation_m: 0.0,
             request: stored.request,
             hashes: stored.hashes,
         });
@@ -102,6 +106,7 @@ fn read(path: &Path, vehicle: &Vehicle) -> Result<Subject> {
             Some(_) => Source::Poses,
             None => Source::Points,
         },
+        sample_deviation_m: samples.deviation_m(),
         request: None,
         hashes: None,
     })
@@ -126,6 +131,7 @@ fn check(subject: &Subject, obstacles: &ObstacleMap, vehicle: &Vehicle) -> Check
         valid: report.valid,
         source: subject.source,
         curvature_slack,
+        sample_deviation_m: subject.sample_deviation_m,
         length_m: subject.path.length_m(),
         n_segments: subject.path.segments().len(),
         certificate: report,
@@ -147,8 +153,8 @@ fn explain(checked: &Checked, vehicle: &Vehicle, out: &mut impl Write) -> io::Re
     )?;
     let read_as = match checked.source {
         Source::Segments => "as written".to_owned(),
-        Source::Poses => reconstructed("arcs and gears from poses"),
-        Source::Points => reconstructed("headings, arcs and gears from points"),
+        Source::Poses => reconstructed("arcs and gears from poses", checked),
+        Source::Points => reconstructed("headings, arcs and gears from points", checked),
     };
     writeln!(
         out,
@@ -164,9 +170,10 @@ fn explain(checked: &Checked, vehicle: &Vehicle, out: &mut impl Write) -> io::Re
     Ok(())
 }
 
-fn reconstructed(what: &str) -> String {
-    let percent = FOREIGN_CURVATURE_SLACK * 100.0;
-    format!("{what}; the curvature limit has {percent:.0} % of slack")
+fn reconstructed(what: &str, checked: &Checked) -> String {
+    let slack_percent = checked.curvature_slack * 100.0;
+    let off_mm = checked.sample_deviation_m * 1e3;
+    format!("{what}, within {off_mm:.1} mm; the curvature limit has {slack_percent:.0} % of slack")
 }
 
 impl Matches {

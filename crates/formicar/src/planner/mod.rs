@@ -8,11 +8,11 @@ mod path_document;
 mod request_document;
 mod run;
 
+pub use crate::search::HybridAstarConfig;
 pub use answer::{
     ANSWER_SCHEMA, Answer, AnswerContext, AnswerError, CertificateHashes, MapRecord, Provenance,
     StoredPath, Timing, VehicleRecord,
 };
-pub use crate::search::HybridAstarConfig;
 pub use config::{ConfigError, GridSearchConfig, PlannerConfig, PlannerName};
 pub use outcome::{NotFound, Outcome, Plan, PlanError};
 pub use path_document::{POSE_SPACING_M, PathDocument, PoseRecord, SegmentRecord};
@@ -83,7 +83,12 @@ impl Planner {
     /// # Errors
     /// A request that cannot be asked on this map, or a deadline without a clock. Ending without
     /// a path is no error.
-    pub fn plan(&mut self, request: &Request, seed: Seed, observer: &mut dyn Observer) -> Result<Outcome, PlanError> {
+    pub fn plan(
+        &mut self,
+        request: &Request,
+        seed: Seed,
+        observer: &mut dyn Observer,
+    ) -> Result<Outcome, PlanError> {
         request.check(&self.obstacles, &self.vehicle)?;
         if request.deadline.is_some() && observer.elapsed().is_none() {
             return Err(PlanError::DeadlineWithoutClock);

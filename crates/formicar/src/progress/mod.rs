@@ -142,7 +142,12 @@ impl<'a> Limits<'a> {
     /// The same limits without the budget, for work that is no search step; it shares clock and
     /// cancel flag.
     pub fn without_budget(&mut self) -> Limits<'_> {
-        Limits { observer: &mut *self.observer, budget_steps: None, deadline: self.deadline, n_steps: 0 }
+        Limits {
+            observer: &mut *self.observer,
+            budget_steps: None,
+            deadline: self.deadline,
+            n_steps: 0,
+        }
     }
 
     /// Tells the observer something.

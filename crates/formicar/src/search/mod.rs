@@ -12,5 +12,5 @@ pub use astar::{AstarWorkspace, astar};
 pub use cost::{DIAGONAL_COST, STRAIGHT_COST};
 pub use goal_field::GoalField;
 pub use grid_search::{GridSearch, SearchError};
-pub use passage::{Passage, widest_passage};
 pub use hybrid_astar::{HybridAstarConfig, HybridProblem, hybrid_astar};
+pub use passage::{Passage, widest_passage};

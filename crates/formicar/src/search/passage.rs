@@ -55,26 +55,43 @@ pub fn widest_passage(distance: &DistanceField, from: Cell, to: Cell) -> Option<
 /// Free neighbors, with the step that leads there.
 fn neighbors(distance: &DistanceField, cell: Cell) -> impl Iterator<Item = (u8, Cell)> + '_ {
     let free = |col: u32, row: u32| distance.squared(col as usize, row as usize) > 0;
-    STEPS.iter().enumerate().filter_map(move |(step, &(dx, dy))| {
-        let (col, row) = (cell.col.checked_add_signed(dx)?, cell.row.checked_add_signed(dy)?);
-        let on_map = (col as usize) < distance.n_cols() && (row as usize) < distance.n_rows();
-        let open = on_map && free(col, row) && (free(cell.col, row) || free(col, cell.row));
-        open.then(|| (step as u8, Cell::new(col, row)))
-    })
+    STEPS
+        .iter()
+        .enumerate()
+        .filter_map(move |(step, &(dx, dy))| {
+            let (col, row) = (
+                cell.col.checked_add_signed(dx)?,
+                cell.row.checked_add_signed(dy)?,
+            );
+            let on_map = (col as usize) < distance.n_cols() && (row as usize) < distance.n_rows();
+            let open = on_map && free(col, row) && (free(cell.col, row) || free(col, cell.row));
+            open.then(|| (step as u8, Cell::new(col, row)))
+        })
 }
 
 fn trace(distance: &DistanceField, came_by: &[u8], from: Cell, to: Cell) -> Passage {
     let mut cells = vec![to];
     let mut cell = to;
     while cell != from {
-        let (dx, dy) = STEPS[came_by[cell.row as usize * distance.n_cols() + cell.col as usize] as usize];
-        cell = Cell::new(cell.col.wrapping_add_signed(-dx), cell.row.wrapping_add_signed(-dy));
+        let (dx, dy) =
+            STEPS[came_by[cell.row as usize * distance.n_cols() + cell.col as usize] as usize];
+        cell = Cell::new(
+            cell.col.wrapping_add_signed(-dx),
+            cell.row.wrapping_add_signed(-dy),
+        );
         cells.push(cell);
     }
     cells.reverse();
     let clear = |cell: &Cell| distance.distance_cells(*cell);
-    let narrowest = *cells.iter().min_by(|a, b| clear(a).total_cmp(&clear(b))).unwrap_or(&from);
-    Passage { narrowest, distance_cells: clear(&narrowest), cells }
+    let narrowest = *cells
+        .iter()
+        .min_by(|a, b| clear(a).total_cmp(&clear(b)))
+        .unwrap_or(&from);
+    Passage {
+        narrowest,
+        distance_cells: clear(&narrowest),
+        cells,
+    }
 }
 
 #[cfg(test)]
@@ -83,7 +100,10 @@ mod tests {
     use crate::map::OccupancyGrid;
 
     fn field(rows: &[&str]) -> DistanceField {
-        DistanceField::new(&OccupancyGrid::from_rows(rows, 1.0).unwrap().lethal_cells(), 64)
+        DistanceField::new(
+            &OccupancyGrid::from_rows(rows, 1.0).unwrap().lethal_cells(),
+            64,
+        )
     }
 
     #[test]
@@ -100,14 +120,24 @@ mod tests {
         let passage = widest_passage(&field, Cell::new(0, 3), Cell::new(8, 0)).unwrap();
         assert_eq!(passage.narrowest.row, 1);
         assert_eq!(passage.narrowest.col, 5);
-        assert!((passage.distance_cells - 2_f64.sqrt()).abs() < 1e-12, "{}", passage.distance_cells);
+        assert!(
+            (passage.distance_cells - 2_f64.sqrt()).abs() < 1e-12,
+            "{}",
+            passage.distance_cells
+        );
     }
 
     #[test]
     fn walls_separate() {
         let field = field(&["..#..", "..#..", "..#.."]);
-        assert_eq!(widest_passage(&field, Cell::new(0, 0), Cell::new(4, 0)), None);
+        assert_eq!(
+            widest_passage(&field, Cell::new(0, 0), Cell::new(4, 0)),
+            None
+        );
         assert!(widest_passage(&field, Cell::new(0, 0), Cell::new(1, 2)).is_some());
-        assert_eq!(widest_passage(&field, Cell::new(9, 0), Cell::new(4, 0)), None);
+        assert_eq!(
+            widest_passage(&field, Cell::new(9, 0), Cell::new(4, 0)),
+            None
+        );
     }
 }

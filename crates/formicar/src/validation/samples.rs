@@ -1,6 +1,6 @@
 //! Foreign paths as tables: CSV of `x, y[, heading]`, metres and radians.
 
-use super::{path_through_points, path_through_poses};
+use super::foreign::{deviation_m, path_through_points, path_through_poses};
 use crate::geometry::{Point2, Pose2};
 use crate::path::CurvePath;
 use thiserror::Error;
@@ -12,7 +12,8 @@ pub struct Samples {
     pub points: Vec<Point2>,
     /// As many headings, where the file has them.
     pub headings: Option<Vec<f64>>,
-    /// Half a unit of the last decimal of the positions.
+    /// Half a unit of the last decimal of the positions, where they are written to the millimetre
+    /// or finer; 0 for coarser ones, which are taken at their word.
     pub rounding_m: f64,
 }
 
@@ -50,6 +51,10 @@ pub enum SamplesError {
         field: String,
     },
 }
+
+/// Decimals from which a position counts as rounded: a curve may pass it within that rounding.
+/// At coarser ones the curve could pass it so far off that a collision stays unseen.
+const N_DECIMALS_OF_ROUNDED: i32 = 3;
 
 /// Where the coordinates stand in a row.
 struct Columns {
@@ -97,8 +102,15 @@ impl Samples {
         if samples.points.is_empty() {
             return Err(SamplesError::Empty);
         }
-        samples.rounding_m = 0.5 * 10_f64.powi(-n_decimals);
+        if n_decimals >= N_DECIMALS_OF_ROUNDED {
+            samples.rounding_m = 0.5 * 10_f64.powi(-n_decimals);
+        }
         Ok(samples)
+    }
+
+    /// How far the path may pass by a sample, metres: both are rounded.
+    pub fn deviation_m(&self) -> f64 {
+        deviation_m(self.rounding_m)
     }
 
     /// The arcs and gears through the samples.
@@ -206,7 +218,9 @@ mod tests {
         let bare = Samples::from_csv("1.5,2\n2.25,2\n").unwrap();
         assert_eq!(bare.points[1], Point2::new(2.25, 2.0));
         assert_eq!(bare.headings, None);
-        assert!((bare.rounding_m - 0.005).abs() < 1e-15);
+        assert_eq!(bare.rounding_m, 0.0);
+        let fine = Samples::from_csv("1.500,2").unwrap();
+        assert!((fine.rounding_m - 0.0005).abs() < 1e-15);
         let named = Samples::from_csv("t;yaw;y;x\n0;0.5;2;1\n").unwrap();
         assert_eq!(named.points, [Point2::new(1.0, 2.0)]);
         assert_eq!(named.headings, Some(vec![0.5]));

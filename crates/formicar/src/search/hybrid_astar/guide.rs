@@ -23,18 +23,35 @@ impl<'a> Guide<'a> {
     const CURVE_REACH_RADII: f64 = 12.0;
 
     /// The guide on obstacles grown by a radius; none where that leaves the goal no way out.
-    pub(super) fn new(problem: &'a HybridProblem<'a>, inflation_m: f64, limits: &mut Limits) -> Result<Option<Self>, Status> {
+    pub(super) fn new(
+        problem: &'a HybridProblem<'a>,
+        inflation_m: f64,
+        limits: &mut Limits,
+    ) -> Result<Option<Self>, Status> {
         let obstacles = problem.obstacles();
         // Only what blocks a position wherever it lies in its cell: from the cell's center to the
         // position half a diagonal, from the obstacle's center to its side half a cell.
-        let radius = inflation_m / obstacles.frame().resolution_m() - (std::f64::consts::FRAC_1_SQRT_2 - 0.5);
+        let radius = inflation_m / obstacles.frame().resolution_m()
+            - (std::f64::consts::FRAC_1_SQRT_2 - 0.5);
         let truncation = f64::from(obstacles.distance().truncation_cells());
-        let blocked = obstacles.distance().within(radius.clamp(0.0, truncation - 0.5));
+        let blocked = obstacles
+            .distance()
+            .within(radius.clamp(0.0, truncation - 0.5));
         let blocked = blocked.unwrap_or_else(|| obstacles.lethal().clone());
         let free = |cell: &Cell| !blocked.get(cell.col as usize, cell.row as usize);
-        let goal = problem.goals().first().and_then(|&pose| problem.cell(pose)).filter(free);
-        let start = problem.starts().next().and_then(|pose| problem.cell(pose)).filter(free);
-        let (Some(goal), Some(_)) = (goal, start) else { return Ok(None) };
+        let goal = problem
+            .goals()
+            .first()
+            .and_then(|&pose| problem.cell(pose))
+            .filter(free);
+        let start = problem
+            .starts()
+            .next()
+            .and_then(|pose| problem.cell(pose))
+            .filter(free);
+        let (Some(goal), Some(_)) = (goal, start) else {
+            return Ok(None);
+        };
         let moves = MoveMasks::new(&blocked, DiagonalRule::AtMostOneObstacle);
         match GoalField::new(&moves, &[goal], &mut limits.without_budget()) {
             Ok(field) => Ok(Some(Self { problem, field })),
@@ -55,12 +72,18 @@ impl<'a> Guide<'a> {
             MotionMode::Reverse => reeds_shepp::distance(pose, goal, radius_m),
         };
         let along_curve = goals.iter().filter_map(curve).fold(f64::INFINITY, f64::min);
-        Some(if along_curve.is_finite() { along_field.max(along_curve) } else { along_field })
+        Some(if along_curve.is_finite() {
+            along_field.max(along_curve)
+        } else {
+            along_field
+        })
     }
 
     /// Whether it is time to try a curve from a pose: always near the goal, seldom far from it.
     pub(super) fn wants_shot(&self, pose: Pose2, n_nodes: u32) -> bool {
-        let Some(to_go) = self.field_m(pose) else { return false };
+        let Some(to_go) = self.field_m(pose) else {
+            return false;
+        };
         let every = (to_go / (3.0 * self.problem.radius_m())) as u32 + 1;
         n_nodes.is_multiple_of(every.min(32))
     }

@@ -31,10 +31,15 @@ use tree::{Node, Tree};
 ///
 /// # Errors
 /// The status to end with: no path on the lattice, budget, deadline or cancel.
-pub fn hybrid_astar(problem: &HybridProblem, limits: &mut Limits) -> Result<(Pose2, Vec<Arc>), Status> {
+pub fn hybrid_astar(
+    problem: &HybridProblem,
+    limits: &mut Limits,
+) -> Result<(Pose2, Vec<Arc>), Status> {
     let mut ended = Status::NoPath;
     for inflation_m in problem.inflations_m() {
-        let Some(guide) = Guide::new(problem, inflation_m, limits)? else { continue };
+        let Some(guide) = Guide::new(problem, inflation_m, limits)? else {
+            continue;
+        };
         match Search::new(problem, &guide).run(limits) {
             Err(Status::NoPath) => ended = Status::NoPath,
             other => return other,
@@ -54,7 +59,13 @@ struct Search<'a> {
 
 impl<'a> Search<'a> {
     fn new(problem: &'a HybridProblem<'a>, guide: &'a Guide<'a>) -> Self {
-        Self { problem, guide, tree: Tree::default(), closed: StateSet::new(), open: OpenList::default() }
+        Self {
+            problem,
+            guide,
+            tree: Tree::default(),
+            closed: StateSet::new(),
+            open: OpenList::default(),
+        }
     }
 
     fn run(mut self, limits: &mut Limits) -> Result<(Pose2, Vec<Arc>), Status> {
@@ -68,13 +79,18 @@ impl<'a> Search<'a> {
                 Step::Shot(shot) => return Ok(self.tree.path(entry.parent, Some(shot))),
                 Step::Move(step) => step,
             };
-            let node = self.problem.arrive(entry.parent, self.tree.node(entry.parent), step);
+            let node = self
+                .problem
+                .arrive(entry.parent, self.tree.node(entry.parent), step);
             let key = self.problem.key(&node);
             if !self.closed.vacant(key) {
                 continue;
             }
             limits.step()?;
-            if !self.problem.is_free(self.tree.node(entry.parent).pose, node.arc) {
+            if !self
+                .problem
+                .is_free(self.tree.node(entry.parent).pose, node.arc)
+            {
                 continue;
             }
             self.closed.insert(key);
@@ -100,7 +116,11 @@ impl<'a> Search<'a> {
             }
             if let Some(to_go) = self.guide.cost_to_go(node.pose) {
                 let estimate = node.cost + self.problem.config().weight * to_go;
-                self.open.push(Entry { parent, step: Step::Move(step), estimate });
+                self.open.push(Entry {
+                    parent,
+                    step: Step::Move(step),
+                    estimate,
+                });
             }
         }
     }
@@ -111,7 +131,11 @@ impl<'a> Search<'a> {
         if let Some((arcs, cost)) = shots::best(self.problem, node) {
             let estimate = node.cost + cost;
             let shot = self.tree.add_shot(arcs);
-            self.open.push(Entry { parent, step: Step::Shot(shot), estimate });
+            self.open.push(Entry {
+                parent,
+                step: Step::Shot(shot),
+                estimate,
+            });
         }
     }
 }

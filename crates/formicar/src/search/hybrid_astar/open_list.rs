@@ -30,7 +30,10 @@ pub(super) struct OpenList {
 impl OpenList {
     pub(super) fn push(&mut self, entry: Entry) {
         self.n_pushed = self.n_pushed.wrapping_add(1);
-        self.heap.push(Queued { entry, order: self.n_pushed });
+        self.heap.push(Queued {
+            entry,
+            order: self.n_pushed,
+        });
     }
 
     pub(super) fn pop(&mut self) -> Option<Entry> {
@@ -72,7 +75,11 @@ mod tests {
     fn least_estimate_first_then_the_latest() {
         let mut open = OpenList::default();
         for (parent, estimate) in [(0, 2.0), (1, 1.0), (2, 1.0), (3, 3.0)] {
-            open.push(Entry { parent, step: Step::Move(0), estimate });
+            open.push(Entry {
+                parent,
+                step: Step::Move(0),
+                estimate,
+            });
         }
         let order: Vec<u32> = std::iter::from_fn(|| open.pop().map(|e| e.parent)).collect();
         assert_eq!(order, [2, 1, 0, 3]);

@@ -41,8 +41,15 @@ impl<'a> HybridProblem<'a> {
         let radius_m = vehicle.min_turning_radius_m();
         // A cell of the map may be larger than the turning circle: half of that is the longest.
         let longest_m = 3.0 * radius_m;
-        let step_m = (config.step_radii * radius_m).max(1.5 * resolution_m).min(longest_m);
-        let lattice = PrimitiveSet::new(vehicle, config.angle_quantization_bins as usize, step_m, gears)?;
+        let step_m = (config.step_radii * radius_m)
+            .max(1.5 * resolution_m)
+            .min(longest_m);
+        let lattice = PrimitiveSet::new(
+            vehicle,
+            config.angle_quantization_bins as usize,
+            step_m,
+            gears,
+        )?;
         let to_grid = |poses: Vec<Pose2>| poses.into_iter().map(|p| obstacles.frame().to_grid(p));
         let mut problem = Self {
             obstacles,
@@ -68,7 +75,9 @@ impl<'a> HybridProblem<'a> {
     /// than, which keeps nothing out wrongly.
     pub(super) fn inflations_m(&self) -> impl Iterator<Item = f64> {
         let (wide, sure) = (self.body.inner_radius_m(), self.axle_inradius_m);
-        [wide.max(sure), sure].into_iter().take(if wide > sure { 2 } else { 1 })
+        [wide.max(sure), sure]
+            .into_iter()
+            .take(if wide > sure { 2 } else { 1 })
     }
 
     pub(super) fn obstacles(&self) -> &ObstacleMap {
@@ -99,7 +108,8 @@ impl<'a> HybridProblem<'a> {
     pub(super) fn cell(&self, pose: Pose2) -> Option<Cell> {
         let frame = self.obstacles.frame();
         let (col, row) = (pose.x / frame.resolution_m(), pose.y / frame.resolution_m());
-        let inside = (0.0..frame.n_cols() as f64).contains(&col) && (0.0..frame.n_rows() as f64).contains(&row);
+        let inside = (0.0..frame.n_cols() as f64).contains(&col)
+            && (0.0..frame.n_rows() as f64).contains(&row);
         inside.then(|| Cell::new(col as u32, row as u32))
     }
 
@@ -125,14 +135,28 @@ impl<'a> HybridProblem<'a> {
             let primitive = &self.lattice.primitives()[step];
             let moved = self.lattice.displacements(parent.heading_index)[step];
             let heading_index = self.lattice.heading_after(parent.heading_index, primitive);
-            (primitive.arc(), heading_index, parent.pose.position() + moved)
+            (
+                primitive.arc(),
+                heading_index,
+                parent.pose.position() + moved,
+            )
         } else {
             let alignment = self.lattice.alignment_arcs(parent.pose.heading)[step];
-            (alignment.arc, alignment.heading_index, alignment.arc.end_from(parent.pose).position())
+            (
+                alignment.arc,
+                alignment.heading_index,
+                alignment.arc.end_from(parent.pose).position(),
+            )
         };
         let pose = Pose2::at(position, self.lattice.heading_rad(heading_index));
         let cost = parent.cost + self.cost(parent, arc, pose);
-        Node { pose, arc, heading_index, cost, parent: Some(parent_id) }
+        Node {
+            pose,
+            arc,
+            heading_index,
+            cost,
+            parent: Some(parent_id),
+        }
     }
 
     /// Whether the body's inner disc certainly hits something: a look at one cell.
@@ -142,7 +166,11 @@ impl<'a> HybridProblem<'a> {
 
     /// Whether a motion touches nothing.
     pub(super) fn is_free(&self, from: Pose2, arc: Arc) -> bool {
-        let drive = Drive { start: from, curvature_per_m: arc.curvature_per_m, signed_length_m: arc.signed_length_m };
+        let drive = Drive {
+            start: from,
+            curvature_per_m: arc.curvature_per_m,
+            signed_length_m: arc.signed_length_m,
+        };
         self.obstacles.is_free(&self.body, &drive)
     }
 
@@ -150,17 +178,28 @@ impl<'a> HybridProblem<'a> {
     pub(super) fn cost(&self, parent: &Node, arc: Arc, end: Pose2) -> f64 {
         let config = self.config;
         let near = match self.obstacles.clearance_ceiling_m(&self.body, end) {
-            clearance if clearance < config.clearance_wish_m => 1.0 - clearance.max(0.0) / config.clearance_wish_m,
+            clearance if clearance < config.clearance_wish_m => {
+                1.0 - clearance.max(0.0) / config.clearance_wish_m
+            }
             _ => 0.0,
         };
         let switches = parent.arc.signed_length_m * arc.signed_length_m < 0.0;
-        self.driving_cost(arc) * (1.0 + config.cost_penalty * near) + if switches { config.change_penalty } else { 0.0 }
+        self.driving_cost(arc) * (1.0 + config.cost_penalty * near)
+            + if switches { config.change_penalty } else { 0.0 }
     }
 
     /// Cost of an arc by its length, gear and steering alone.
     pub(super) fn driving_cost(&self, arc: Arc) -> f64 {
-        let gear = if arc.signed_length_m < 0.0 { self.config.reverse_penalty } else { 1.0 };
-        let steering = if arc.curvature_per_m == 0.0 { 1.0 } else { self.config.non_straight_penalty };
+        let gear = if arc.signed_length_m < 0.0 {
+            self.config.reverse_penalty
+        } else {
+            1.0
+        };
+        let steering = if arc.curvature_per_m == 0.0 {
+            1.0
+        } else {
+            self.config.non_straight_penalty
+        };
         arc.length_m() * gear * steering
     }
 
@@ -172,5 +211,4 @@ impl<'a> HybridProblem<'a> {
                 && angle_difference(pose.heading, goal.heading).abs() <= yaw_rad
         })
     }
-
 }

@@ -17,7 +17,11 @@ pub(super) fn best(problem: &HybridProblem, node: &Node) -> Option<(Vec<Arc>, f6
         .map(|curve| (cost(problem, node, &curve), curve))
         .collect();
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let free = |curve: &Curve| curve.placed_arcs(node.pose).all(|(start, arc)| problem.is_free(start, arc));
+    let free = |curve: &Curve| {
+        curve
+            .placed_arcs(node.pose)
+            .all(|(start, arc)| problem.is_free(start, arc))
+    };
     ranked
         .iter()
         .take(MAX_WORDS)

@@ -10,7 +10,10 @@ const VACANT: u64 = u64::MAX;
 
 impl StateSet {
     pub(super) fn new() -> Self {
-        Self { slots: vec![VACANT; 1 << 12], n_states: 0 }
+        Self {
+            slots: vec![VACANT; 1 << 12],
+            n_states: 0,
+        }
     }
 
     /// Whether a state is not in the set.

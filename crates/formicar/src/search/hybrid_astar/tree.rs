@@ -16,7 +16,13 @@ pub(super) struct Node {
 impl Node {
     /// A start; its heading need not be on the lattice.
     pub(super) fn root(pose: Pose2) -> Self {
-        Self { pose, arc: Arc::default(), heading_index: 0, cost: 0.0, parent: None }
+        Self {
+            pose,
+            arc: Arc::default(),
+            heading_index: 0,
+            cost: 0.0,
+            parent: None,
+        }
     }
 }
 
