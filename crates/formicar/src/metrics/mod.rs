@@ -1,8 +1,20 @@
-//! metrics: to come.
+//! What a path is like, in numbers.
+//!
+//! [`PathMetrics`] are exact: computed from segments, not from samples. [`CompatibleMetrics`]
+//! repeat what other tools compute, so that numbers can be laid side by side; they depend on the
+//! sampling and are no ground for a decision.
 
-/// Exact metrics of a path (stub).
-#[derive(Clone, Debug, serde::Serialize, schemars::JsonSchema)]
-pub struct PathMetrics {
-    /// Driven length.
-    pub length_m: f64,
-}
+mod benchmr;
+mod compatible;
+mod nodes;
+mod path_metrics;
+mod resample;
+mod smoothness;
+mod steering_share;
+mod winding;
+
+pub use compatible::CompatibleMetrics;
+pub use nodes::NodeMetrics;
+pub use path_metrics::{ClearanceSummary, PathMetrics};
+pub use steering_share::SteeringShare;
+pub use winding::flips;

@@ -3,7 +3,7 @@
 use super::{NotFound, Outcome, Plan, PlanError, Planner, PlannerName};
 use crate::geometry::{Arc, Point2, Pose2};
 use crate::map::{BitGrid, Cell, MoveMasks};
-use crate::metrics::PathMetrics;
+use crate::metrics::{ClearanceSummary, PathMetrics};
 use crate::numeric::Seed;
 use crate::path::{CurvePath, Direction, GridPath};
 use crate::progress::{Event, Limits, Status};
@@ -150,8 +150,10 @@ impl Planner {
                     length_m: found.path.length_m(),
                     n_steps,
                 });
-                let metrics =
-                    PathMetrics::new(&found.path, &self.vehicle, &self.obstacles, &certificate);
+                let min_m = certificate.min_clearance_m;
+                let clearance =
+                    ClearanceSummary::new(&self.obstacles, &self.vehicle, &found.path, min_m);
+                let metrics = PathMetrics::new(&found.path, &self.vehicle, request.goal, clearance);
                 let planner = self.config.planner;
                 let grid_path = found.grid.map(|grid| grid.path);
                 Outcome::Found(Box::new(Plan {

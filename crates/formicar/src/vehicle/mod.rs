@@ -1,10 +1,12 @@
 //! Car-like vehicles: measures, footprint, limits and motion.
 
+mod kinematics;
 mod parameters;
 mod presets;
 mod primitives;
 mod shape;
 
+pub use kinematics::{AckermannAxles, BicycleInput, BicycleState, Wheels};
 pub use parameters::{FootprintSpec, VehicleParameters};
 pub use presets::PRESET_NAMES;
 pub use primitives::{Alignment, Gears, Primitive, PrimitiveSet};
