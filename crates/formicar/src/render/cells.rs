@@ -71,16 +71,16 @@ impl CellLayer {
             return;
         }
         let n_high = self.levels.len() / self.n_wide();
-        let rendering = if right.norm() < 1.0 {
-            "auto"
+        let style = if right.norm() < 1.0 {
+            "image-rendering:auto"
         } else {
-            "pixelated"
+            "image-rendering:pixelated"
         };
         let image = Element::new("image")
             .number("width", self.n_wide() as f64)
             .number("height", n_high as f64)
             .text("preserveAspectRatio", "none")
-            .text("image-rendering", rendering)
+            .text("style", style)
             .text("href", &data_url(&self.png(colors)))
             .matrix(right, -up, origin + up * n_high as f64);
         svg.add(&image);

@@ -86,7 +86,7 @@ pub struct Band {
 /// A value of the left axis that must not be passed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
-    /// What is written on its line.
+    /// What is written beside its line.
     pub label: String,
     /// The value.
     pub value: f64,
@@ -154,9 +154,14 @@ impl Chart {
         };
         axis.and_then(|a| a.range).unwrap_or_else(|| {
             let (low, high) = span(lines.chain(others));
-            let air = 0.08 * (high - low);
-            let below = if low == 0.0 { 0.0 } else { air };
-            (low - below, high + air)
+            // Limits at an end are named beyond their line.
+            let limit_at = |end: f64| self.limits.iter().any(|l| l.value == end);
+            let air = |end| match side {
+                Side::Left if limit_at(end) => 0.22 * (high - low),
+                _ if end == 0.0 => 0.0,
+                _ => 0.08 * (high - low),
+            };
+            (low - air(low), high + air(high))
         })
     }
 }
@@ -195,7 +200,7 @@ mod tests {
         };
         assert_eq!(chart.x_range(), (0.0, 5.0));
         let (low, high) = chart.y_range(Side::Left);
-        assert!((low - 0.2).abs() < 1e-12 && (high - 11.8).abs() < 1e-12);
+        assert!((low - 0.2).abs() < 1e-12 && (high - 13.2).abs() < 1e-12);
         assert_eq!(Chart::default().y_range(Side::Right), (0.0, 1.08));
     }
 }

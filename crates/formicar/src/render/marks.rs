@@ -14,6 +14,8 @@ use crate::vehicle::{Motion, Vehicle};
 const MAX_SAMPLES: f64 = 3000.0;
 /// Outlines of vehicles shorter than this are not drawn along the path.
 const MIN_OUTLINE_PX: f64 = 9.0;
+/// Arrows of poses are at least this long, and so stand out ahead of small vehicles.
+const MIN_ARROW_PX: f64 = 32.0;
 
 impl Scene {
     /// A drivable path as true arcs: solid forward, dashed in reverse, a dot at each change.
@@ -57,7 +59,10 @@ impl Scene {
         if vehicle.motion() == Motion::Point || length_px < 1.0 {
             return self;
         }
-        let ground = self.footprints(vehicle, &self.samples(path, (0.12 * length_px).max(1.0)));
+        let ground = self.footprints(
+            vehicle,
+            &self.samples(path, (0.12 * length_px).clamp(1.0, 2.0)),
+        );
         let ground = Element::path(ground).fill(palette::SWEPT);
         self.body.add(&ground.text("fill-opacity", "0.22"));
         if length_px >= MIN_OUTLINE_PX {
@@ -78,11 +83,13 @@ impl Scene {
             PoseMark::Goal => (palette::GOAL, "goal"),
         };
         let at = self.view.to_px(pose.position());
-        let body = Element::path(self.footprints(vehicle, &[pose])).fill(color);
-        self.body
-            .add(&body.text("fill-opacity", "0.2").pen(color, 2.0));
         let (_, high) = vehicle.footprint().bounds();
-        let reach_px = (high.x * self.view.px_per_m()).max(22.0);
+        let front_px = high.x * self.view.px_per_m();
+        let width_px = if front_px < MIN_ARROW_PX { 1.0 } else { 2.0 };
+        let body = Element::path(self.footprints(vehicle, &[pose])).fill(color);
+        let body = body.text("fill-opacity", "0.2").pen(color, width_px);
+        self.body.add(&body);
+        let reach_px = front_px.max(MIN_ARROW_PX);
         if vehicle.motion() == Motion::Car {
             self.arrow(at, View::direction(pose.heading), reach_px, color);
         }
@@ -93,8 +100,11 @@ impl Scene {
                 self.body.add(&ring.pen(color, 2.4));
             }
         }
-        for corner in vehicle.footprint().placed(pose).corners() {
-            self.labels.keep_clear(self.view.to_px(*corner));
+        for (a, b) in vehicle.footprint().placed(pose).edges() {
+            for i in 0..8 {
+                let place = a.lerp(b, f64::from(i) / 8.0);
+                self.labels.keep_clear(self.view.to_px(place));
+            }
         }
         if self.view.shows(at) {
             self.labels.name(at, 12.0, (name, color));
@@ -118,9 +128,19 @@ impl Scene {
         self
     }
 
+    /// The outlines of the vehicle at those poses where the panel may show it.
     fn footprints(&self, vehicle: &Vehicle, poses: &[Pose2]) -> PathData {
         let mut path = PathData::default();
-        for &pose in poses.iter().filter(|pose| pose.is_finite()) {
+        let (low, high) = self.view.bounds();
+        let reach = vehicle.footprint().circumradius();
+        let seen = |p: &&Pose2| {
+            let (x, y) = (
+                low.x - reach..=high.x + reach,
+                low.y - reach..=high.y + reach,
+            );
+            x.contains(&p.x) && y.contains(&p.y) && p.heading.is_finite()
+        };
+        for &pose in poses.iter().filter(seen) {
             let placed = vehicle.footprint().placed(pose);
             path.polygon(placed.corners().iter().map(|&p| self.view.to_px(p)));
         }
@@ -129,7 +149,8 @@ impl Scene {
 
     /// Poses along a path, about as many pixels apart.
     fn samples(&self, path: &CurvePath, spacing_px: f64) -> Vec<Pose2> {
-        let length_m = path.length_m();
+        // Nobody has checked the lengths: taken by size, they bound the samples of each segment.
+        let length_m: f64 = path.segments().iter().map(|s| s.length_m.abs()).sum();
         if !length_m.is_finite() {
             return Vec::new();
         }
@@ -163,14 +184,14 @@ impl Scene {
         let tip = from + along * length_px;
         let side = along.perpendicular() * 4.5;
         let neck = tip - along * 10.0;
-        let shaft = Element::line(from, neck);
-        self.body.add(&shaft.clone().pen(palette::PAGE, 5.0));
-        self.body.add(&shaft.pen(color, 2.4));
+        self.body.add(&Element::line(from, neck).pen(color, 2.4));
         let mut head = PathData::default();
         head.polygon([tip, neck + side, neck - side]);
         let head = Element::path(head).fill(color);
         self.body.add(&head.pen(palette::PAGE, 0.8));
-        self.labels.keep_clear(tip);
+        for i in 0..=4 {
+            self.labels.keep_clear(from.lerp(tip, f64::from(i) / 4.0));
+        }
     }
 }
 

@@ -8,8 +8,9 @@ use super::svg::{Element, Svg};
 use super::ticks;
 use crate::geometry::Point2;
 
-/// Room for coordinates left of the panel and below it.
-const LEFT_PX: f64 = 42.0;
+/// Room for coordinates left of a panel or plot.
+pub(super) const LEFT_PX: f64 = 44.0;
+/// Room for coordinates below the panel.
 const BELOW_PX: f64 = 22.0;
 /// Room between the coordinates and the legend.
 const LEGEND_GAP_PX: f64 = 6.0;

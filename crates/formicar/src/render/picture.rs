@@ -4,10 +4,11 @@ use super::Scene;
 use super::chart::Chart;
 use super::lettering::Lettering;
 use super::palette;
+use super::panel::LEFT_PX;
 use super::svg::{Element, Svg};
 use crate::geometry::Point2;
 
-const MARGIN_PX: f64 = 28.0;
+const MARGIN_PX: f64 = 24.0;
 const GAP_PX: f64 = 26.0;
 /// Width of charts beside a scene, or without one.
 const COLUMN_PX: f64 = 460.0;
@@ -96,9 +97,13 @@ impl Picture {
     fn draw_head(&self, svg: &mut Svg, width_px: f64) -> Point2 {
         let mut y = MARGIN_PX;
         for (style, text, line_px) in [(TITLE, &self.title, 30.0), (CAPTION, &self.caption, 21.0)] {
-            for line in style.wrapped(text, width_px - 2.0 * MARGIN_PX) {
+            for line in style.wrapped(text, width_px - LEFT_PX - 2.0 * MARGIN_PX) {
                 y += line_px;
-                style.write(svg, Point2::new(MARGIN_PX, y - 0.4 * line_px), &line);
+                style.write(
+                    svg,
+                    Point2::new(MARGIN_PX + LEFT_PX, y - 0.4 * line_px),
+                    &line,
+                );
             }
         }
         Point2::new(MARGIN_PX, if y > MARGIN_PX { y + 10.0 } else { y })
@@ -133,7 +138,7 @@ impl Picture {
         let Some((detail, heading)) = &self.detail else {
             return at.y;
         };
-        DETAIL.write(svg, at + Point2::new(42.0, 16.0), heading);
+        DETAIL.write(svg, at + Point2::new(LEFT_PX, 16.0), heading);
         detail.draw(svg, at + Point2::new(0.0, 24.0));
         at.y + 24.0 + detail.size_px().y
     }

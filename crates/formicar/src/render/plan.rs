@@ -6,6 +6,9 @@ use crate::map::OccupancyGrid;
 use crate::path::CurvePath;
 use crate::vehicle::Vehicle;
 
+/// A detail is shown where it enlarges the map at least so many times.
+const WORTHWHILE_ENLARGEMENT: f64 = 1.5;
+
 /// All that the picture of a plan, or of a failure, is made from.
 #[derive(Clone, Copy, Debug)]
 pub struct PlanPicture<'a> {
@@ -31,18 +34,17 @@ pub struct PlanPicture<'a> {
 
 /// The picture of a plan, or of a request without one.
 pub fn plan_picture(plan: &PlanPicture) -> Picture {
-    let detail = plan.tightest.map(|(place, clearance_m)| {
-        let half_side_m = detail_half_side_m(plan);
-        let scene = drawn(Scene::detail(plan.map, place, half_side_m), plan);
-        (
-            scene.without_legend(),
-            format!("tightest place: {clearance_m:.2} m"),
-        )
+    let scene = drawn(Scene::new(plan.map), plan);
+    let detail = plan.tightest.and_then(|(place, clearance_m)| {
+        let detail = Scene::detail(plan.map, place, detail_half_side_m(plan));
+        let heading = format!("tightest place: {clearance_m:.2} m");
+        let enlarges = detail.px_per_m() >= WORTHWHILE_ENLARGEMENT * scene.px_per_m();
+        enlarges.then(|| (drawn(detail, plan).without_legend(), heading))
     });
     Picture {
         title: plan.title.to_owned(),
         caption: plan.caption.to_owned(),
-        scene: Some(drawn(Scene::new(plan.map), plan)),
+        scene: Some(scene),
         detail,
         charts: strip_charts(plan.profile, plan.vehicle),
     }
@@ -60,8 +62,8 @@ fn drawn(mut scene: Scene, plan: &PlanPicture) -> Scene {
     scene
 }
 
-/// A few vehicles across, and enough cells to recognise the place.
+/// Two vehicles across, and enough cells to recognize the place.
 fn detail_half_side_m(plan: &PlanPicture) -> f64 {
     let (low, high) = plan.vehicle.footprint().bounds();
-    (1.6 * (high.x - low.x)).max(8.0 * plan.map.frame().resolution_m())
+    (1.1 * (high.x - low.x)).max(6.0 * plan.map.frame().resolution_m())
 }

@@ -4,17 +4,16 @@ use super::chart::{Axis, Chart, Series, Side};
 use super::legend::{LINE_PX, Legend, Swatch};
 use super::lettering::{Anchor, Lettering};
 use super::palette;
+use super::panel::LEFT_PX;
 use super::svg::{Element, PathData, Svg};
 use super::ticks;
 use crate::geometry::Point2;
 
-const LEFT_PX: f64 = 54.0;
-const RIGHT_PX: f64 = 14.0;
-const RIGHT_AXIS_PX: f64 = 58.0;
+const RIGHT_AXIS_PX: f64 = 44.0;
 const HEAD_PX: f64 = 24.0;
 const BELOW_PX: f64 = 8.0;
 const BELOW_WITH_NUMBERS_PX: f64 = 42.0;
-const USUAL_HEIGHT_PX: f64 = 86.0;
+const USUAL_HEIGHT_PX: f64 = 100.0;
 
 const HEADING: Lettering = Lettering::new(13.0, palette::INK);
 const NUMBERS: Lettering = Lettering::new(11.5, palette::MUTED);
@@ -39,7 +38,7 @@ impl Chart {
 
     /// Draws the chart with its upper left corner at a point of the page.
     pub(super) fn draw(&self, svg: &mut Svg, at: Point2, width_px: f64) {
-        let right_px = self.y_right.as_ref().map_or(RIGHT_PX, |_| RIGHT_AXIS_PX);
+        let right_px = self.y_right.as_ref().map_or(0.0, |_| RIGHT_AXIS_PX);
         let plot = Plot {
             chart: self,
             corner: at + Point2::new(LEFT_PX, HEAD_PX),
@@ -130,6 +129,13 @@ impl Plot<'_> {
             let low = Point2::new(from, self.corner.y);
             let area = Element::rectangle(low, Point2::new((to - from).max(0.0), self.size.y));
             svg.add(&area.fill(palette::REVERSE.mix(palette::PAGE, 0.8)));
+            // Limits are named at the right end.
+            let right = self.corner.x + self.size.x - 80.0;
+            if to - from > NUMBERS.width_px(&band.label) + 6.0 && to < right {
+                let base = Point2::new(0.5 * (from + to), self.corner.y + self.size.y - 3.5);
+                let middle = NUMBERS.anchored(Anchor::Middle);
+                middle.write(svg, base, &band.label);
+            }
         }
         self.draw_x_axis(svg);
         self.draw_y_axis(svg, (self.left, Side::Left));
@@ -158,7 +164,7 @@ impl Plot<'_> {
     }
 
     fn draw_y_axis(&self, svg: &mut Svg, ((low, high), side): ((f64, f64), Side)) {
-        let step = ticks::round_step(high - low, (self.size.y / 26.0).max(2.0));
+        let step = ticks::round_step(high - low, (self.size.y / 16.0).clamp(2.0, 6.0));
         for y in ticks::multiples(low, high, step) {
             let px = self.at(Point2::new(self.x.0, y), side).y;
             let (left, right) = (self.corner.x, self.corner.x + self.size.x);
@@ -259,7 +265,7 @@ impl Plot<'_> {
                     .text("stroke-linecap", "butt"),
             );
             let low = right.y > self.corner.y + 0.5 * self.size.y;
-            let base = right + Point2::new(-6.0, if low { -5.0 } else { 13.0 });
+            let base = right + Point2::new(-6.0, if low { 12.0 } else { -4.0 });
             LIMITS
                 .anchored(Anchor::End)
                 .write_with_halo(svg, base, &limit.label);

@@ -68,6 +68,10 @@ impl Scene {
         self.view.size_px()
     }
 
+    pub(super) fn px_per_m(&self) -> f64 {
+        self.view.px_per_m()
+    }
+
     /// Marks a set of cells of the map.
     pub fn cells(&mut self, set: &BitGrid, style: &CellStyle) -> &mut Self {
         let n_cols = self.frame.n_cols();

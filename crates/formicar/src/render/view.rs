@@ -20,10 +20,12 @@ impl View {
     pub(super) fn fit(low: Point2, high: Point2, max_px: Point2) -> Self {
         let extent = high - low;
         let px_per_m = (max_px.x / extent.x).min(max_px.y / extent.y);
-        let size_px = Point2::new(
-            (extent.x * px_per_m).clamp(MIN_SIDE_PX, max_px.x),
-            (extent.y * px_per_m).clamp(MIN_SIDE_PX, max_px.y),
-        );
+        // An extent beyond all numbers shows nothing, in a panel of the largest size.
+        let side = |extent: f64, most: f64| match extent * px_per_m {
+            px if px.is_finite() => px.clamp(MIN_SIDE_PX, most),
+            _ => most,
+        };
+        let size_px = Point2::new(side(extent.x, max_px.x), side(extent.y, max_px.y));
         let center = low.lerp(high, 0.5);
         Self {
             low: center - size_px * (0.5 / px_per_m),
