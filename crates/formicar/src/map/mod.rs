@@ -3,6 +3,7 @@
 mod bit_grid;
 mod cell;
 mod distance;
+pub mod format;
 mod frame;
 mod grid;
 mod raster;
