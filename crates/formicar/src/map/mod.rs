@@ -5,6 +5,7 @@ pub mod builtin;
 mod cell;
 mod components;
 mod distance;
+pub mod format;
 mod frame;
 pub mod generate;
 mod grid;
