@@ -2,12 +2,14 @@
 
 use crate::args::GroundArgs;
 use crate::files::{self, ScenarioFile};
-use crate::pending::builtin::BuiltinMap;
 use anyhow::{Context, Result, bail};
 use formicar::geometry::Pose2;
+use formicar::map::builtin::BuiltinMap;
+use formicar::map::format::{ReadOptions, read_map};
 use formicar::map::{OCCUPIED, OccupancyGrid, UnknownPolicy};
 use formicar::planner::MapRecord;
 use formicar::vehicle::Vehicle;
+use std::path::Path;
 
 /// The vehicle where neither flags nor scenario name one.
 const DEFAULT_VEHICLE: &str = "warehouse_amr";
@@ -77,17 +79,14 @@ fn find(args: &GroundArgs) -> Result<Found> {
     match (&args.map, &args.scenario) {
         (Some(name), None) if BuiltinMap::by_name(name).is_ok() => builtin(args, name),
         (Some(name), None) => file(args, name),
-        (None, Some(path)) => {
-            let scenario = match ScenarioFile::read(path, args.resolution)? {
-                ScenarioFile::Tpcap(found) if args.id.is_none() => return Ok(*found),
-                ScenarioFile::Tpcap(_) => bail!(
-                    "--id: {} is one TPCAP case; hint: leave --id out",
-                    path.display()
-                ),
-                ScenarioFile::Cars(cars) => cars,
-            };
-            scenario.load(args.id.as_deref())
-        }
+        (None, Some(path)) => match ScenarioFile::read(path)? {
+            ScenarioFile::Cars(cars) => cars.load(args.id.as_deref(), args.resolution),
+            ScenarioFile::Tpcap(case) if args.id.is_none() => case.load(args.resolution),
+            ScenarioFile::Tpcap(_) => bail!(
+                "--id: {} is one TPCAP case; hint: leave --id out",
+                path.display()
+            ),
+        },
         _ => bail!("a map is needed; hint: --map F|NAME (see `list maps`) or --scenario F"),
     }
 }
@@ -113,14 +112,17 @@ fn file(args: &GroundArgs, name: &str) -> Result<Found> {
     if let Some(id) = &args.request {
         bail!("--request {id}: only built-in maps have requests; hint: --start and --goal");
     }
-    let path = std::path::Path::new(name);
+    let path = Path::new(name);
+    let options = ReadOptions {
+        resolution_m: args.resolution,
+    };
     if !path.exists() && path.extension().is_none() {
         // A bare word: most likely a misspelled built-in.
         BuiltinMap::by_name(name)?;
     }
     Ok(Found {
         name: name.to_owned(),
-        map: files::read_map(path, args.resolution)?,
+        map: read_map(path, &options)?,
         vehicle: None,
         ends: None,
     })
@@ -128,7 +130,7 @@ fn file(args: &GroundArgs, name: &str) -> Result<Found> {
 
 /// A vehicle by preset name, or from a `.toml` or `.json` file.
 pub(crate) fn vehicle(name: &str) -> Result<NamedVehicle> {
-    let path = std::path::Path::new(name);
+    let path = Path::new(name);
     let extension = path.extension().and_then(|e| e.to_str());
     let vehicle = match extension.map(str::to_ascii_lowercase).as_deref() {
         Some("toml") => {

@@ -10,7 +10,6 @@ mod failure;
 mod files;
 mod ground;
 mod output;
-mod pending;
 mod picture;
 mod settings;
 mod summary;

@@ -38,7 +38,7 @@ impl<Kind: Copy> Target<Kind> {
 
     /// Writes the whole file, or nothing.
     pub(crate) fn write(&self, bytes: &[u8]) -> Result<()> {
-        crate::pending::format::write_atomically(&self.path, bytes)
+        formicar::map::format::write_atomically(&self.path, bytes)
             .with_context(|| format!("{} cannot be written", self.path.display()))
     }
 

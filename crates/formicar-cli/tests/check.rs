@@ -48,7 +48,10 @@ fn what_cannot_be_driven_is_exit_3_with_every_reason() {
     room.write("corner.csv", "2,2\n3,2\n3,3\n3,4\n");
     let run = room.run(&["check", "corner.csv", "--map", "room.yaml", "--json"]);
     assert_eq!(run.code, 3, "{}", run.stdout);
-    assert_eq!(run.json()["certificate"]["violations"][0]["kind"], "curvature");
+    assert_eq!(
+        run.json()["certificate"]["violations"][0]["kind"],
+        "curvature"
+    );
 }
 
 #[test]
@@ -58,7 +61,11 @@ fn another_map_or_vehicle_than_certified_is_told() {
     let others = ["--margin", "0.01", "--keep-out", "1,7 1.2,7 1.2,7.2"];
     let check = ["check", "path.json", "--map", "room.yaml"];
     let run = room.run(&[&check[..], &others].concat());
-    assert!(run.stdout.contains("another map and vehicle"), "{}", run.stdout);
+    assert!(
+        run.stdout.contains("another map and vehicle"),
+        "{}",
+        run.stdout
+    );
 }
 
 #[test]
@@ -78,8 +85,14 @@ fn files_that_are_no_paths_are_refused() {
     let room = Room::new();
     let cases = [
         ("{}", "schema"),
-        ("{\"schema\": \"formicar/answer/9\", \"status\": \"found\"}", "formicar/answer/1"),
-        ("{\"schema\": \"formicar/answer/1\", \"status\": \"no_path\"}", "no_path"),
+        (
+            "{\"schema\": \"formicar/answer/9\", \"status\": \"found\"}",
+            "formicar/answer/1",
+        ),
+        (
+            "{\"schema\": \"formicar/answer/1\", \"status\": \"no_path\"}",
+            "no_path",
+        ),
         ("", "no rows"),
         ("x,y\n1,nan\n", "line 2"),
         ("x,y\n1,2\n1\n", "line 3"),
@@ -88,9 +101,12 @@ fn files_that_are_no_paths_are_refused() {
     ];
     for (text, word) in cases {
         room.write("bad", text);
-        room.run(&["check", "bad", "--map", "room.yaml"]).assert_refused(&["bad", word]);
+        room.run(&["check", "bad", "--map", "room.yaml"])
+            .assert_refused(&["bad", word]);
     }
-    room.run(&["check", "gone.csv", "--map", "room.yaml"]).assert_refused(&["gone.csv"]);
+    room.run(&["check", "gone.csv", "--map", "room.yaml"])
+        .assert_refused(&["gone.csv"]);
     room.write("bytes", [0xff_u8, 0xfe, 0x00]);
-    room.run(&["check", "bytes", "--map", "room.yaml"]).assert_refused(&["bytes"]);
+    room.run(&["check", "bytes", "--map", "room.yaml"])
+        .assert_refused(&["bytes"]);
 }

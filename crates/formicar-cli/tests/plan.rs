@@ -6,7 +6,12 @@ use common::{Room, formicar_in};
 use serde_json::{Value, json};
 
 fn keys(object: &Value) -> Vec<&str> {
-    object.as_object().unwrap().keys().map(String::as_str).collect()
+    object
+        .as_object()
+        .unwrap()
+        .keys()
+        .map(String::as_str)
+        .collect()
 }
 
 #[test]
@@ -16,12 +21,23 @@ fn the_answer_has_the_promised_fields() {
     let answer = answer.json();
     assert_eq!(answer["schema"], "formicar/answer/1");
     assert_eq!(answer["status"], "found");
-    assert_eq!((&answer["code"], &answer["code_number"]), (&json!("NONE"), &json!(0)));
+    assert_eq!(
+        (&answer["code"], &answer["code_number"]),
+        (&json!("NONE"), &json!(0))
+    );
     assert_eq!(answer["reason"], Value::Null);
-    assert_eq!((&answer["planner"], &answer["seed"]), (&json!("hybrid-astar"), &json!(7)));
+    assert_eq!(
+        (&answer["planner"], &answer["seed"]),
+        (&json!("hybrid-astar"), &json!(7))
+    );
     let certificate = &answer["certificate"];
     assert_eq!(certificate["valid"], true);
-    for key in ["min_clearance_m", "max_curvature_per_m", "goal_error_m", "goal_error_rad"] {
+    for key in [
+        "min_clearance_m",
+        "max_curvature_per_m",
+        "goal_error_m",
+        "goal_error_rad",
+    ] {
         assert!(certificate[key].as_f64().unwrap() >= 0.0, "{key}");
     }
     assert_eq!(certificate["violations"], json!([]));
@@ -32,7 +48,16 @@ fn the_answer_has_the_promised_fields() {
     assert_eq!(keys(&answer["timing"]), timing);
     assert!(answer["timing"]["first_feasible_s"].is_f64());
     assert!(answer["metrics"]["length_m"].as_f64().unwrap() > 8.0);
-    let of_pose = ["clearance", "curvature", "direction", "heading", "s", "steer", "x", "y"];
+    let of_pose = [
+        "clearance",
+        "curvature",
+        "direction",
+        "heading",
+        "s",
+        "steer",
+        "x",
+        "y",
+    ];
     assert_eq!(keys(&answer["path"]["poses"][0]), of_pose);
     let of_segment = ["curvature", "direction", "heading", "length", "x", "y"];
     assert_eq!(keys(&answer["path"]["segments"][0]), of_segment);
@@ -49,7 +74,10 @@ fn poses_are_dense_and_follow_their_segments() {
     }
     let last = poses.last().unwrap();
     let segments = answer["path"]["segments"].as_array().unwrap();
-    let length_m: f64 = segments.iter().map(|segment| number(segment, "length")).sum();
+    let length_m: f64 = segments
+        .iter()
+        .map(|segment| number(segment, "length"))
+        .sum();
     assert!((number(last, "s") - length_m).abs() < 1e-9);
     assert!((number(last, "x") - 10.0).hypot(number(last, "y") - 2.0) <= 0.01);
     for pose in poses {
@@ -77,15 +105,27 @@ fn two_calm_lines_for_people() {
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     let lines: Vec<_> = run.stdout.lines().collect();
     assert_eq!(lines.len(), 2, "{}", run.stdout);
-    assert!(lines[0].starts_with("found ") && lines[0].contains("of 1.29 1/m"), "{}", lines[0]);
-    assert!(lines[1].starts_with("certified ") && lines[1].contains("poses"), "{}", lines[1]);
+    assert!(
+        lines[0].starts_with("found ") && lines[0].contains("of 1.29 1/m"),
+        "{}",
+        lines[0]
+    );
+    assert!(
+        lines[1].starts_with("certified ") && lines[1].contains("poses"),
+        "{}",
+        lines[1]
+    );
     assert!(!run.stdout.contains('\u{1b}'));
 }
 
 #[test]
 fn writes_answer_poses_and_picture() {
     let room = Room::new();
-    assert_eq!(room.plan(&["--out", "path.json", "--picture", "path.svg"]).code, 0);
+    assert_eq!(
+        room.plan(&["--out", "path.json", "--picture", "path.svg"])
+            .code,
+        0
+    );
     assert_eq!(room.plan(&["--out", "path.csv"]).code, 0);
     let answer: Value = serde_json::from_str(&room.read("path.json")).unwrap();
     let csv = room.read("path.csv");
@@ -93,13 +133,23 @@ fn writes_answer_poses_and_picture() {
     assert_eq!(csv.lines().count(), n_poses + 1);
     assert!(csv.starts_with("x,y,heading,s,direction,curvature,steer,clearance\n"));
     assert!(room.read("path.svg").contains("<svg"));
-    assert_eq!(room.files(), ["path.csv", "path.json", "path.svg", "room.pgm", "room.yaml"]);
+    assert_eq!(
+        room.files(),
+        ["path.csv", "path.json", "path.svg", "room.pgm", "room.yaml"]
+    );
 }
 
 #[test]
 fn start_equal_to_goal_is_found_with_length_0() {
     let answer = Room::new().run(&[
-        "plan", "--map", "room.yaml", "--start", "2,2,0", "--goal", "2,2,0", "--json",
+        "plan",
+        "--map",
+        "room.yaml",
+        "--start",
+        "2,2,0",
+        "--goal",
+        "2,2,0",
+        "--json",
     ]);
     assert_eq!(answer.code, 0, "{}", answer.stdout);
     assert_eq!(answer.json()["metrics"]["length_m"], 0.0);
@@ -112,10 +162,17 @@ fn a_closed_door_is_exit_3_with_a_reason() {
     let run = room.plan(&[&door[..], &["--out", "no.csv", "--json"]].concat());
     assert_eq!(run.code, 3, "{}{}", run.stdout, run.stderr);
     let answer = run.json();
-    assert_eq!((&answer["status"], &answer["code"]), (&json!("no_path"), &json!("NO_VALID_PATH")));
+    assert_eq!(
+        (&answer["status"], &answer["code"]),
+        (&json!("no_path"), &json!("NO_VALID_PATH"))
+    );
     assert!(answer["reason"].as_str().unwrap().len() > 10);
     assert_eq!(answer["path"], Value::Null);
-    assert!(run.stderr.contains("no.csv is not written"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("no.csv is not written"),
+        "{}",
+        run.stderr
+    );
     assert_eq!(room.files(), ["room.pgm", "room.yaml"]);
 }
 
@@ -136,14 +193,22 @@ fn ends_outside_or_occupied_are_the_callers_fault_with_nav2_codes() {
         ("--goal", "6.1,2,0", "GOAL_OCCUPIED", 206),
     ];
     for (flag, pose, code, number) in cases {
-        let other = if flag == "--start" { "--goal" } else { "--start" };
+        let other = if flag == "--start" {
+            "--goal"
+        } else {
+            "--start"
+        };
         let ends = ["plan", "--map", "room.yaml", flag, pose, other, "3,3,0"];
         let run = room.run(&[&ends[..], &["--json", "--out", "no.json"]].concat());
         assert_eq!(run.code, 2, "{}", run.stdout);
         let answer = run.json();
         assert_eq!(answer["status"], "invalid_request");
-        assert_eq!((&answer["code"], &answer["code_number"]), (&json!(code), &json!(number)));
-        room.run(&ends).assert_refused(&[flag.trim_start_matches('-'), "m"]);
+        assert_eq!(
+            (&answer["code"], &answer["code_number"]),
+            (&json!(code), &json!(number))
+        );
+        room.run(&ends)
+            .assert_refused(&[flag.trim_start_matches('-'), "m"]);
     }
     assert_eq!(room.files(), ["room.pgm", "room.yaml"]);
 }
@@ -166,19 +231,36 @@ fn vehicles_come_from_toml_and_json() {
         r#"{"footprint": "[[0.6,0.25],[-0.1,0.25],[-0.1,-0.25],[0.6,-0.25]]", "min_turning_radius": 0.8}"#,
     );
     assert_eq!(room.plan(&["--vehicle", "cart.toml"]).code, 0);
-    let answer = room.plan(&["--vehicle", "cart.json", "--margin", "0.02", "--json"]).json();
+    let answer = room
+        .plan(&["--vehicle", "cart.json", "--margin", "0.02", "--json"])
+        .json();
     assert_eq!(answer["status"], "found");
     assert_eq!(answer["path"]["poses"][0]["steer"], Value::Null);
-    assert_eq!(answer["provenance"]["vehicle"]["parameters"]["safety_margin_m"], 0.02);
+    assert_eq!(
+        answer["provenance"]["vehicle"]["parameters"]["safety_margin_m"],
+        0.02
+    );
 }
 
 #[test]
 fn parameters_come_from_file_and_flags() {
     let room = Room::new();
-    room.write("planner.toml", "[hybrid_astar]\nweight = 2.0\nreverse_penalty = 3.0\n");
-    let flags = ["--config", "planner.toml", "--set", "hybrid_astar.weight=1.2", "--json"];
+    room.write(
+        "planner.toml",
+        "[hybrid_astar]\nweight = 2.0\nreverse_penalty = 3.0\n",
+    );
+    let flags = [
+        "--config",
+        "planner.toml",
+        "--set",
+        "hybrid_astar.weight=1.2",
+        "--json",
+    ];
     let config = room.plan(&flags).json()["provenance"]["config"]["hybrid_astar"].clone();
-    assert_eq!((&config["weight"], &config["reverse_penalty"]), (&json!(1.2), &json!(3.0)));
+    assert_eq!(
+        (&config["weight"], &config["reverse_penalty"]),
+        (&json!(1.2), &json!(3.0))
+    );
 }
 
 #[test]
@@ -196,9 +278,14 @@ fn scenario_files_are_planned_by_id() {
     );
     let run = room.run(&["plan", "--scenario", "cars.json", "--id", "b", "--json"]);
     assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
-    assert_eq!(run.json()["provenance"]["request"]["goal"], json!([3.0, 4.0, 1.0]));
-    room.run(&["plan", "--scenario", "cars.json"]).assert_refused(&["--id", "a", "b"]);
-    room.run(&["plan", "--scenario", "cars.json", "--id", "c"]).assert_refused(&["\"c\"", "a, b"]);
+    assert_eq!(
+        run.json()["provenance"]["request"]["goal"],
+        json!([3.0, 4.0, 1.0])
+    );
+    room.run(&["plan", "--scenario", "cars.json"])
+        .assert_refused(&["--id", "a", "b"]);
+    room.run(&["plan", "--scenario", "cars.json", "--id", "c"])
+        .assert_refused(&["\"c\"", "a, b"]);
 }
 
 #[test]
@@ -223,15 +310,44 @@ nonsense
     let of = |key: &str| answers.iter().map(|a| a[key].clone()).collect::<Vec<_>>();
     assert_eq!(
         of("status"),
-        ["found", "invalid_request", "invalid_request", "invalid_request", "found", "invalid_request"]
+        [
+            "found",
+            "invalid_request",
+            "invalid_request",
+            "invalid_request",
+            "found",
+            "invalid_request"
+        ]
     );
     assert_eq!(
         of("id"),
-        [json!(1), json!("two"), Value::Null, Value::Null, json!({"n": 5}), json!(6)]
+        [
+            json!(1),
+            json!("two"),
+            Value::Null,
+            Value::Null,
+            json!({"n": 5}),
+            json!(6)
+        ]
     );
     assert_eq!(answers[1]["code"], "GOAL_OCCUPIED");
-    assert!(answers[2]["reason"].as_str().unwrap().starts_with("line 4: "));
-    assert!(answers[3]["reason"].as_str().unwrap().contains("deadline_ms"));
+    assert!(
+        answers[2]["reason"]
+            .as_str()
+            .unwrap()
+            .starts_with("line 4: ")
+    );
+    assert!(
+        answers[3]["reason"]
+            .as_str()
+            .unwrap()
+            .contains("deadline_ms")
+    );
     assert_eq!(answers[4]["seed"], 3);
-    assert!(answers[5]["reason"].as_str().unwrap().contains("goal is missing"));
+    assert!(
+        answers[5]["reason"]
+            .as_str()
+            .unwrap()
+            .contains("goal is missing")
+    );
 }

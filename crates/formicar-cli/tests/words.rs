@@ -15,7 +15,10 @@ fn lists_what_there_is() {
     insta::assert_snapshot!(run(&["list", "planners"]).stdout);
     insta::assert_snapshot!(run(&["list", "vehicles"]).stdout);
     let maps = run(&["list", "maps"]).stdout;
-    assert!(maps.contains("warehouse") && maps.contains("lei-map1"), "{maps}");
+    assert!(
+        maps.contains("warehouse") && maps.contains("lei-map1"),
+        "{maps}"
+    );
     assert!(run(&["list", "scenarios"]).stdout.contains("warehouse"));
     run(&["list", "maps", "file"]).assert_refused(&["list scenarios"]);
     run(&["list", "ants"]).assert_refused(&["ants", "planners"]);
@@ -58,9 +61,17 @@ fn a_reader_that_leaves_is_no_crash() {
         .unwrap();
     drop(child.stdout.take());
     let mut stdin = child.stdin.take().unwrap();
-    let _ = std::io::Write::write_all(&mut stdin, b"{\"goal\": [4, 5, 1]}\n{\"goal\": [4, 5, 1]}\n");
+    let _ = std::io::Write::write_all(
+        &mut stdin,
+        b"{\"goal\": [4, 5, 1]}\n{\"goal\": [4, 5, 1]}\n",
+    );
     drop(stdin);
     let mut told = String::new();
-    child.stderr.take().unwrap().read_to_string(&mut told).unwrap();
+    child
+        .stderr
+        .take()
+        .unwrap()
+        .read_to_string(&mut told)
+        .unwrap();
     assert_eq!((child.wait().unwrap().code(), told.as_str()), (Some(0), ""));
 }

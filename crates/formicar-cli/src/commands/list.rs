@@ -3,8 +3,8 @@
 use crate::args::{ListArgs, Listing};
 use crate::failure::{Ending, Failure};
 use crate::files::ScenarioFile;
-use crate::pending::builtin;
-use anyhow::{Result, anyhow, bail};
+use anyhow::{Result, anyhow};
+use formicar::map::builtin;
 use formicar::planner::PlannerName;
 use formicar::vehicle::{Motion, PRESET_NAMES, Vehicle};
 use std::io::Write;
@@ -72,8 +72,8 @@ fn requests() -> Vec<Row> {
 }
 
 fn scenarios(path: &std::path::Path) -> Result<Vec<Row>> {
-    match ScenarioFile::read(path, None)? {
-        ScenarioFile::Cars(cars) => Ok(cars.rows()),
-        ScenarioFile::Tpcap(_) => bail!("{}: a TPCAP file is one case", path.display()),
-    }
+    Ok(match ScenarioFile::read(path)? {
+        ScenarioFile::Cars(cars) => cars.rows(),
+        ScenarioFile::Tpcap(case) => vec![case.row()],
+    })
 }

@@ -17,7 +17,13 @@ pub struct Run {
 impl Run {
     /// The only line of stdout, as JSON.
     pub fn json(&self) -> Value {
-        assert_eq!(self.stdout.lines().count(), 1, "{}{}", self.stdout, self.stderr);
+        assert_eq!(
+            self.stdout.lines().count(),
+            1,
+            "{}{}",
+            self.stdout,
+            self.stderr
+        );
         serde_json::from_str(&self.stdout).unwrap()
     }
 
@@ -27,7 +33,11 @@ impl Run {
         assert_eq!(self.stdout, "");
         assert!(!self.stderr.contains("panicked"), "{}", self.stderr);
         for word in words {
-            assert!(self.stderr.contains(word), "no {word:?} in: {}", self.stderr);
+            assert!(
+                self.stderr.contains(word),
+                "no {word:?} in: {}",
+                self.stderr
+            );
         }
     }
 }
@@ -98,7 +108,15 @@ impl Room {
 
     /// Plans through the door of the room, with more flags.
     pub fn plan(&self, more: &[&str]) -> Run {
-        let through = ["plan", "--map", "room.yaml", "--start", "2,2,0", "--goal", "10,2,-90deg"];
+        let through = [
+            "plan",
+            "--map",
+            "room.yaml",
+            "--start",
+            "2,2,0",
+            "--goal",
+            "10,2,-90deg",
+        ];
         self.run(&[&through[..], more].concat())
     }
 
