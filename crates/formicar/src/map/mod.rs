@@ -1,16 +1,20 @@
 //! Occupancy grids: what is known of the ground, in a ROS frame.
 
 mod bit_grid;
+pub mod builtin;
 mod cell;
 mod components;
 mod distance;
+pub mod format;
 mod frame;
+pub mod generate;
 mod grid;
 mod line_of_sight;
 mod move_masks;
 mod neighborhood;
 mod orientation;
 mod raster;
+mod sketch;
 
 pub use bit_grid::BitGrid;
 pub(crate) use bit_grid::set_bits;

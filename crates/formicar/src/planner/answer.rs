@@ -128,15 +128,15 @@ pub struct AnswerContext<'a> {
 }
 
 impl AnswerContext<'_> {
-    /// The answer to a request that was planned, or refused by the planner.
+    /// The answer to a request that was planned or refused; `None` where it is incomplete.
     pub fn answer(
         &self,
-        request: &Request,
+        request: Option<&Request>,
         seed: Seed,
         result: &Result<Outcome, PlanError>,
         timing: Timing,
     ) -> Answer {
-        let document = Some(RequestDocument::from(request));
+        let document = request.map(RequestDocument::from);
         match result {
             Ok(Outcome::Found(plan)) => Answer {
                 certificate: Some((*plan.certificate).clone()),

@@ -233,10 +233,18 @@ fn least(value: impl Fn(f64) -> f64) -> f64 {
     0.5 * (low + high)
 }
 
+/// How far a curve may pass by a sample: both coordinates are rounded, at the sample and at the
+/// ends of the curve.
+pub(super) fn deviation_m(rounding_m: f64) -> f64 {
+    if rounding_m <= NEGLIGIBLE_ROUNDING_M {
+        return 0.0;
+    }
+    2.0 * SQRT_2 * rounding_m
+}
+
 /// Whether a curve passes all poses within the rounding of their file.
 fn passes(curve: &[CurveSegment], poses: &[Pose2], rounding_m: f64) -> bool {
-    // Both coordinates are rounded, at the sample and at the curve's ends.
-    let off_m = 2.0 * SQRT_2 * rounding_m;
+    let off_m = deviation_m(rounding_m);
     let length_m: f64 = curve.iter().map(|segment| segment.length_m).sum();
     // Headings are rounded alike, and a step between rounded points points elsewhere.
     let off_rad = 2.0 * rounding_m + 2.0 * off_m * (poses.len() + 1) as f64 / length_m;
