@@ -3,8 +3,8 @@
 mod support;
 
 use divan::{Bencher, black_box};
-use formicar::map::{BitGrid, Cell, DistanceField};
-use support::{SIZES, town};
+use formicar::map::{BitGrid, Cell, Components, DiagonalRule, DistanceField, MoveMasks};
+use support::{SIZES, hood, town};
 
 fn main() {
     divan::main();
@@ -28,4 +28,28 @@ fn distance_transform_of_poles<const TRUNCATION: u32>(
         cols.for_each(|col| lethal.insert(Cell::new(col, row)));
     }
     bencher.bench_local(|| DistanceField::new(black_box(&lethal), TRUNCATION));
+}
+
+#[divan::bench]
+fn distance_transform_of_hood_800x500(bencher: Bencher) {
+    let Some(hood) = hood() else { return };
+    bencher.bench_local(|| DistanceField::new(black_box(&hood.lethal), 64));
+}
+
+#[divan::bench(args = SIZES)]
+fn inflation(bencher: Bencher, (n_cols, n_rows): (usize, usize)) {
+    let field = DistanceField::new(&town(n_cols, n_rows), 32);
+    bencher.bench_local(|| black_box(&field).within(2.5));
+}
+
+#[divan::bench(args = SIZES)]
+fn move_masks(bencher: Bencher, (n_cols, n_rows): (usize, usize)) {
+    let lethal = town(n_cols, n_rows);
+    bencher.bench_local(|| MoveMasks::new(black_box(&lethal), DiagonalRule::NoObstacles));
+}
+
+#[divan::bench(args = SIZES)]
+fn components(bencher: Bencher, (n_cols, n_rows): (usize, usize)) {
+    let (lethal, rule) = (town(n_cols, n_rows), DiagonalRule::NoObstacles);
+    bencher.bench_local(|| Components::new(black_box(&lethal), rule.connectivity()));
 }

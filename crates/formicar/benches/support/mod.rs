@@ -1,7 +1,9 @@
 //! Maps for benchmarks.
+#![allow(dead_code, reason = "each benchmark uses a part")]
 
 use formicar::map::{BitGrid, Cell};
 use formicar::numeric::Seed;
+use std::path::Path;
 
 /// A town of rectangular blocks of 20 to 60 cells between alleys of 10 to 20, most of them
 /// courtyards: walls around open ground.
@@ -30,3 +32,50 @@ pub(crate) fn town(n_cols: usize, n_rows: usize) -> BitGrid {
 
 /// Grid sizes of the benchmarks.
 pub(crate) const SIZES: [(usize, usize); 3] = [(800, 500), (2000, 2000), (5000, 5000)];
+
+/// A real alley neighborhood of 800 x 500 cells of 0.2 m, with its start and goal cells.
+pub(crate) struct Hood {
+    pub(crate) lethal: BitGrid,
+    pub(crate) queries: Vec<[Cell; 2]>,
+}
+
+const HOOD_RESOLUTION_M: f64 = 0.2;
+
+/// The neighborhood, if the shared data lies beside the workspace.
+pub(crate) fn hood() -> Option<Hood> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/car");
+    let image = std::fs::read(folder.join("hood_800x500.pgm")).ok()?;
+    let json = std::fs::read(folder.join("hood_800x500.json")).ok()?;
+    let json: serde_json::Value = serde_json::from_slice(&json).ok()?;
+    let cell = |pose: &serde_json::Value| {
+        let index = |i: usize| pose[i].as_f64().map(|m| (m / HOOD_RESOLUTION_M) as u32);
+        Some(Cell::new(index(0)?, index(1)?))
+    };
+    let ends = |s: &serde_json::Value| Some([cell(&s["start"])?, cell(&s["goal"])?]);
+    Some(Hood {
+        lethal: read_p5(&image)?,
+        queries: json["scenarios"]
+            .as_array()?
+            .iter()
+            .filter_map(ends)
+            .collect(),
+    })
+}
+
+/// The dark pixels of a P5 image without comments; its last row is row 0.
+fn read_p5(image: &[u8]) -> Option<BitGrid> {
+    let mut header = image.splitn(4, |&byte| byte == b'\n');
+    let (magic, size) = (header.next()?, std::str::from_utf8(header.next()?).ok()?);
+    let (n_cols, n_rows) = size.split_once(' ')?;
+    let (n_cols, n_rows): (usize, usize) = (n_cols.parse().ok()?, n_rows.parse().ok()?);
+    let pixels = header.nth(1)?;
+    if magic != b"P5" || n_cols == 0 || pixels.len() != n_cols * n_rows {
+        return None;
+    }
+    let mut lethal = BitGrid::new(n_cols, n_rows);
+    for (row, pixels) in pixels.rchunks_exact(n_cols).enumerate() {
+        let dark = pixels.iter().enumerate().filter(|&(_, &grey)| grey < 200);
+        dark.for_each(|(col, _)| lethal.insert(Cell::new(col as u32, row as u32)));
+    }
+    Some(lethal)
+}

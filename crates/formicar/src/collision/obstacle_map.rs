@@ -1,6 +1,7 @@
 //! A map made ready for distance queries: the map set-up that every query shares.
 
-use crate::geometry::Point2;
+use super::Body;
+use crate::geometry::{Point2, Pose2};
 use crate::map::{BitGrid, DistanceField, GridFrame, OccupancyGrid};
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -77,6 +78,12 @@ impl ObstacleMap {
         let margin = inset / resolution;
         let inner = |v: f64| (margin..=1.0 - margin).contains(&(v - v.floor()));
         self.lethal.contains(x.floor() as i64, y.floor() as i64) && inner(x) && inner(y)
+    }
+
+    /// An upper bound of a standing body's clearance, metres, from one look at the distance
+    /// transform; where it is negative, the body's inner disc certainly overlaps something.
+    pub fn clearance_ceiling_m(&self, body: &Body, pose: Pose2) -> f64 {
+        self.obstacle_within_m(pose.transform(body.inner_center)) - body.inner_radius
     }
 
     /// The radius of a disc about a point that holds no part of a lethal square; 0 off the map.

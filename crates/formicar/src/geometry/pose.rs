@@ -1,12 +1,13 @@
 //! A position with a heading, and exact motion along arcs.
 
 use super::{Point2, wrap_angle};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A position in metres and a heading in radians, counter-clockwise from the x axis.
 ///
 /// As a vehicle's pose it is the centre of the rear axle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Pose2 {
     /// Position along the x axis, metres.
     pub x: f64,

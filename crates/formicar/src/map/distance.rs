@@ -88,6 +88,29 @@ impl DistanceField {
     pub fn distance_cells(&self, cell: Cell) -> f64 {
         f64::from(self.squared(cell.col as usize, cell.row as usize)).sqrt()
     }
+
+    /// The cells at a distance of at most `radius_cells`: obstacles grown by that radius.
+    ///
+    /// None if the radius is negative, not a number, or not below the truncation, where the field
+    /// cannot tell.
+    pub fn within(&self, radius_cells: f64) -> Option<BitGrid> {
+        if !(0.0..f64::from(self.truncation_cells)).contains(&radius_cells) {
+            return None;
+        }
+        // The largest square whose root, as rounded by `distance_cells`, is within the radius.
+        let mut limit = (radius_cells * radius_cells) as u16 + 1;
+        while f64::from(limit).sqrt() > radius_cells {
+            limit -= 1;
+        }
+        let mut cells = BitGrid::new(self.n_cols, self.n_rows);
+        for (row, squared) in self.rows().enumerate() {
+            for (word, squared) in cells.row_mut(row).iter_mut().zip(squared.chunks(64)) {
+                let bits = squared.iter().enumerate();
+                *word = bits.fold(0, |word, (i, &d)| word | u64::from(d <= limit) << i);
+            }
+        }
+        Some(cells)
+    }
 }
 
 /// For every cell the rows down to the nearest obstacle of its column, at most the truncation.
@@ -247,6 +270,21 @@ mod tests {
         assert_eq!(field.truncation_cells(), 255);
         assert!(field.rows().flatten().all(|&d| d == 255 * 255));
         assert_eq!(field.distance_cells(Cell::new(4, 1)), 255.0);
+    }
+
+    #[test]
+    fn growing_obstacles_includes_the_radius_itself() {
+        let mut lethal = BitGrid::new(70, 70);
+        lethal.insert(Cell::new(66, 30));
+        let field = DistanceField::new(&lethal, 8);
+        for squared in [0, 1, 2, 3, 5, 8, 50] {
+            let radius = f64::from(squared).sqrt();
+            let grown = field.within(radius).unwrap();
+            let cells = (0..70 * 70).map(|i| Cell::new(i % 70, i / 70));
+            let near = cells.filter(|&cell| field.distance_cells(cell) <= radius);
+            assert!(grown.iter().eq(near), "{squared}");
+        }
+        assert!(field.within(8.0).is_none() && field.within(f64::NAN).is_none());
     }
 
     proptest! {

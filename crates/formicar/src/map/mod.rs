@@ -1,15 +1,28 @@
 //! Occupancy grids: what is known of the ground, in a ROS frame.
 
 mod bit_grid;
+pub mod builtin;
 mod cell;
+mod components;
 mod distance;
+pub mod format;
 mod frame;
+pub mod generate;
 mod grid;
+mod line_of_sight;
+mod move_masks;
+mod neighborhood;
+mod orientation;
 mod raster;
+mod sketch;
 
 pub use bit_grid::BitGrid;
 pub(crate) use bit_grid::set_bits;
 pub use cell::Cell;
+pub use components::Components;
 pub use distance::DistanceField;
 pub use frame::GridFrame;
 pub use grid::{FREE, MAX_CELLS, MapError, OCCUPIED, OccupancyGrid, UNKNOWN, UnknownPolicy};
+pub use line_of_sight::{cells_in_sight, line_of_sight, touched_cells};
+pub use move_masks::MoveMasks;
+pub use neighborhood::{Connectivity, DiagonalRule, STEPS, ring};

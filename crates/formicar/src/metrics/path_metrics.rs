@@ -46,7 +46,7 @@ impl ClearanceSummary {
 }
 
 /// Exact metrics of a path.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct PathMetrics {
     /// Driven length, metres.
     pub length_m: f64,

@@ -6,7 +6,7 @@ use crate::path::CurvePath;
 use serde::Serialize;
 
 /// Shares of steps by how much the heading changes over them (Li 2024, Table 2).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct SteeringShare {
     /// By at most 5 degrees.
     pub to_5_deg: f64,

@@ -1,5 +1,7 @@
 //! Every parameter of every planner, with its range: one definition for files, flags and docs.
 
+use crate::map::DiagonalRule;
+use crate::search::HybridAstarConfig;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -67,67 +69,12 @@ impl std::str::FromStr for PlannerName {
     }
 }
 
-/// Parameters of hybrid A*; costs are in metres of forward driving.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct HybridAstarConfig {
-    /// Weight of the heuristic, at least 1: 1 keeps the lattice optimum, more is faster.
-    #[schemars(range(min = 1.0, max = 10.0))]
-    pub weight: f64,
-    /// Number of headings of the lattice.
-    #[schemars(range(min = 16, max = 360))]
-    pub angle_quantization_bins: u32,
-    /// Factor on the length driven in reverse, at least 1.
-    #[schemars(range(min = 1.0, max = 100.0))]
-    pub reverse_penalty: f64,
-    /// Cost of a change of gear, metres.
-    #[schemars(range(min = 0.0, max = 1000.0))]
-    pub change_penalty: f64,
-    /// Factor on the length driven with the wheels turned, at least 1.
-    #[schemars(range(min = 1.0, max = 100.0))]
-    pub non_straight_penalty: f64,
-    /// Factor on length where the body is near obstacles: 1 + `cost_penalty` at contact, falling
-    /// to 1 at `clearance_wish_m`.
-    #[schemars(range(min = 0.0, max = 100.0))]
-    pub cost_penalty: f64,
-    /// Clearance beyond which obstacles no longer count, metres.
-    #[schemars(range(min = 0.0, max = 100.0))]
-    pub clearance_wish_m: f64,
-}
-
-impl Default for HybridAstarConfig {
-    fn default() -> Self {
-        Self {
-            weight: 1.5,
-            angle_quantization_bins: 72,
-            reverse_penalty: 2.0,
-            change_penalty: 1.0,
-            non_straight_penalty: 1.05,
-            cost_penalty: 0.5,
-            clearance_wish_m: 0.5,
-        }
-    }
-}
-
 /// Parameters of searches over cells.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct GridSearchConfig {
     /// Which diagonal steps are allowed beside obstacles.
-    pub diagonal_rule: DiagonalRuleName,
-}
-
-/// Which diagonal steps are allowed beside obstacles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum DiagonalRuleName {
-    /// All.
-    Always,
-    /// Where at most one of the two cells beside the step is occupied (Wang 2019).
-    AtMostOneObstacle,
-    /// Where neither is: no corner is cut.
-    #[default]
-    NoObstacles,
+    pub diagonal_rule: DiagonalRule,
 }
 
 /// What is wrong with a configuration.
@@ -177,6 +124,7 @@ impl PlannerConfig {
                 16.0,
                 360.0,
             ),
+            ("hybrid_astar.step_radii", h.step_radii, 0.05, 1.0),
             (
                 "hybrid_astar.reverse_penalty",
                 h.reverse_penalty,

@@ -1,16 +1,29 @@
 //! The one door: a map, a vehicle and a configuration in, certified paths out.
 
+mod answer;
 mod config;
+mod explain;
 mod outcome;
+mod path_document;
+mod request_document;
+mod run;
 
-pub use config::{ConfigError, GridSearchConfig, HybridAstarConfig, PlannerConfig, PlannerName};
+pub use crate::search::HybridAstarConfig;
+pub use answer::{
+    ANSWER_SCHEMA, Answer, AnswerContext, AnswerError, CertificateHashes, MapRecord, Provenance,
+    StoredPath, Timing, VehicleRecord,
+};
+pub use config::{ConfigError, GridSearchConfig, PlannerConfig, PlannerName};
 pub use outcome::{NotFound, Outcome, Plan, PlanError};
+pub use path_document::{POSE_SPACING_M, PathDocument, PoseRecord, SegmentRecord};
+pub use request_document::RequestDocument;
 
 use crate::collision::ObstacleMap;
-use crate::map::OccupancyGrid;
+use crate::map::{MoveMasks, OccupancyGrid};
 use crate::numeric::Seed;
-use crate::progress::Observer;
+use crate::progress::{Limits, Observer};
 use crate::scenario::{Request, Scenario};
+use crate::search::AstarWorkspace;
 use crate::vehicle::Vehicle;
 use std::sync::Arc;
 
@@ -20,6 +33,8 @@ pub struct Planner {
     obstacles: Arc<ObstacleMap>,
     vehicle: Vehicle,
     config: PlannerConfig,
+    /// What searches over cells prepare and reuse.
+    grid: Option<(MoveMasks, AstarWorkspace)>,
 }
 
 impl Planner {
@@ -49,6 +64,7 @@ impl Planner {
             obstacles,
             vehicle,
             config,
+            grid: None,
         })
     }
 
@@ -65,16 +81,21 @@ impl Planner {
     /// Plans one request. Same map, vehicle, configuration, request and seed: same path.
     ///
     /// # Errors
-    /// A request that cannot be asked on this map. Ending without a path is no error.
+    /// A request that cannot be asked on this map, or a deadline without a clock. Ending without
+    /// a path is no error.
     pub fn plan(
         &mut self,
         request: &Request,
         seed: Seed,
         observer: &mut dyn Observer,
     ) -> Result<Outcome, PlanError> {
-        let _ = (seed, observer);
         request.check(&self.obstacles, &self.vehicle)?;
-        unimplemented!("search is on its way")
+        if request.deadline.is_some() && observer.elapsed().is_none() {
+            return Err(PlanError::DeadlineWithoutClock);
+        }
+        let mut limits = Limits::new(observer, request.budget_steps, request.deadline);
+        let found = self.search(request, &mut limits)?;
+        Ok(self.conclude(request, seed, found, &mut limits))
     }
 }
 

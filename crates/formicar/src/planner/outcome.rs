@@ -81,6 +81,18 @@ pub enum PlanError {
     /// A configuration outside its ranges.
     #[error(transparent)]
     Config(#[from] ConfigError),
+    /// A planner that needs a steered vehicle, and a vehicle that is a point.
+    #[error("{} plans for cars, the vehicle is a point; hint: use astar or dijkstra", planner.name())]
+    NeedsACar {
+        /// The planner.
+        planner: PlannerName,
+    },
+    /// The vehicle does not suit the search.
+    #[error(transparent)]
+    Vehicle(#[from] crate::vehicle::VehicleError),
+    /// A grid search refused its input.
+    #[error(transparent)]
+    Search(crate::search::SearchError),
     /// A deadline without a clock to hold it against.
     #[error(
         "a deadline needs an observer with a clock; hint: implement Observer::elapsed, or use a step budget"

@@ -139,6 +139,17 @@ impl<'a> Limits<'a> {
         Ok(())
     }
 
+    /// The same limits without the budget, for work that is no search step; it shares clock and
+    /// cancel flag.
+    pub fn without_budget(&mut self) -> Limits<'_> {
+        Limits {
+            observer: &mut *self.observer,
+            budget_steps: None,
+            deadline: self.deadline,
+            n_steps: 0,
+        }
+    }
+
     /// Tells the observer something.
     pub fn tell(&mut self, event: &Event) {
         self.observer.on_event(event);

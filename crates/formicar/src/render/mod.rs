@@ -1,1 +1,35 @@
-//! render: to come.
+//! Pictures: scenes of maps and paths, strip charts, as SVG and (feature `png-pictures`) PNG.
+//!
+//! Renderers draw what they are handed and compute nothing about it: clearances, profiles and
+//! limits come in as values. The same input gives the same bytes. Text is drawn as strokes, so
+//! that no font is needed and a picture looks the same everywhere.
+
+mod cells;
+mod chart;
+mod labels;
+mod legend;
+mod lettering;
+mod marks;
+pub mod palette;
+mod panel;
+mod picture;
+mod plan;
+mod plot;
+#[cfg(feature = "png-pictures")]
+mod png;
+mod scene;
+mod strips;
+mod style;
+mod svg;
+mod ticks;
+mod view;
+
+pub use chart::{Axis, Band, Chart, Limit, Ribbon, SERIES_COLORS, Series, Side};
+pub use palette::Color;
+pub use picture::Picture;
+pub use plan::{PlanPicture, plan_picture};
+#[cfg(feature = "png-pictures")]
+pub use png::RenderError;
+pub use scene::Scene;
+pub use strips::{ProfilePoint, strip_charts};
+pub use style::{CellStyle, Dash, LineStyle, PoseMark};

@@ -8,6 +8,12 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum ScenarioError {
+    /// Something that every request needs.
+    #[error("{what} is missing; hint: give it as x, y, heading in metres and radians")]
+    Missing {
+        /// What is missing.
+        what: &'static str,
+    },
     /// A number that is none.
     #[error("{what} is not finite: {value}")]
     NotFinite {

@@ -1,1 +1,16 @@
-//! search: to come.
+//! Search: A* from cell to cell, the field of all costs to a goal, hybrid A* from pose to pose.
+
+mod astar;
+mod bucket_queue;
+mod cost;
+mod goal_field;
+mod grid_search;
+mod hybrid_astar;
+mod passage;
+
+pub use astar::{AstarWorkspace, astar};
+pub use cost::{DIAGONAL_COST, STRAIGHT_COST};
+pub use goal_field::GoalField;
+pub use grid_search::{GridSearch, SearchError};
+pub use hybrid_astar::{HybridAstarConfig, HybridProblem, hybrid_astar};
+pub use passage::{Passage, widest_passage};

@@ -6,13 +6,17 @@
 //! valid path gets a [`Certificate`], and only the judge makes one.
 
 mod ends;
+mod foreign;
 mod judge;
 mod report;
+mod samples;
 mod shape;
 mod swept;
 
+pub use foreign::{FOREIGN_CURVATURE_SLACK, path_through_points, path_through_poses};
 pub use judge::{judge, judge_path};
 pub use report::{Certificate, Report, Violation, ViolationKind};
+pub use samples::{Samples, SamplesError};
 
 /// How far two segments may miss each other: metres, and radians.
 pub const JOINT_TOLERANCE: f64 = 1e-6;

@@ -1,11 +1,12 @@
 //! What the judge says: every violation, or a certificate.
 
 use crate::geometry::Pose2;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::ops::Deref;
 
 /// The judge's findings on one path; world coordinates.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Report {
     /// Whether nothing was violated.
     pub valid: bool,
@@ -33,7 +34,7 @@ pub struct Report {
 }
 
 /// One thing that is wrong with a path.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Violation {
     /// What kind of thing.
     pub kind: ViolationKind,
@@ -50,7 +51,7 @@ pub struct Violation {
 }
 
 /// Kinds of violations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum ViolationKind {

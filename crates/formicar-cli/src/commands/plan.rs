@@ -1,0 +1,191 @@
+//! `plan`: from a map and two poses to a certified path.
+
+use super::stdin;
+use crate::args::PlanArgs;
+use crate::clock::Clock;
+use crate::failure::{Ending, Failure, note};
+use crate::ground::{self, Ground};
+use crate::output::Target;
+use crate::picture::{self, PictureKind};
+use crate::{settings, summary};
+use anyhow::Result;
+use formicar::collision::ObstacleMap;
+use formicar::numeric::Seed;
+use formicar::planner::{
+    Answer, AnswerContext, Outcome, PlanError, Planner, PlannerConfig, RequestDocument, Timing,
+};
+use std::io::Write;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// What `--out` writes.
+#[derive(Clone, Copy, Debug)]
+enum OutKind {
+    Answer,
+    Poses,
+}
+
+/// Everything that stands before the first request, warm.
+pub(super) struct Session {
+    pub(super) planner: Planner,
+    ground: Ground,
+    obstacles: Arc<ObstacleMap>,
+    config: PlannerConfig,
+    map_setup_s: f64,
+    begun: Instant,
+}
+
+/// One answered query.
+pub(super) struct Answered {
+    pub(super) answer: Answer,
+    result: Result<Outcome, PlanError>,
+    n_improvements: u32,
+}
+
+/// Carries out `plan`.
+pub(crate) fn run(args: &PlanArgs, out: &mut impl Write) -> Result<Ending, Failure> {
+    let begun = Instant::now();
+    let out_kinds = [("json", OutKind::Answer), ("csv", OutKind::Poses)];
+    let out_file = target(args.out.as_deref(), &out_kinds)?;
+    let picture_file = target(args.picture.as_deref(), &picture::KINDS)?;
+    let config = settings::load(args.config.as_deref(), &args.set, args.planner)?;
+    let ground = ground::load(&args.ground)?;
+    let defaults = request(args, &ground);
+    let mut session = Session::new(ground, config, begun)?;
+    if args.stdin {
+        return stdin::run(&mut session, &defaults, Seed(args.seed), out);
+    }
+    let answered = session.ask(&defaults, &RequestDocument::default(), Seed(args.seed));
+    if answered.ending() != Ending::Refused {
+        write_files(&session, &answered, (out_file, picture_file))?;
+    }
+    if args.json {
+        serde_json::to_writer(&mut *out, &answered.answer).map_err(std::io::Error::from)?;
+        writeln!(out)?;
+    } else if let Err(error) = answered.result {
+        return Err(Failure::Input(error.into()));
+    } else {
+        let vehicle = &session.ground.vehicle.vehicle;
+        summary::write(&answered.answer, vehicle, answered.n_improvements, out)?;
+    }
+    Ok(answered.ending())
+}
+
+fn target<Kind: Copy>(
+    path: Option<&std::path::Path>,
+    kinds: &[(&str, Kind)],
+) -> Result<Option<Target<Kind>>> {
+    path.map(|path| Target::new(path, kinds)).transpose()
+}
+
+/// The request of the flags, over that of the scenario or built-in map.
+fn request(args: &PlanArgs, ground: &Ground) -> RequestDocument {
+    let [start, goal] = match ground.ends {
+        Some([start, goal]) => [Some(start), Some(goal)],
+        None => [None, None],
+    };
+    let list = |pose: formicar::geometry::Pose2| [pose.x, pose.y, pose.heading];
+    RequestDocument {
+        id: None,
+        start: args.start.or(start).map(list),
+        goal: args.goal.or(goal).map(list),
+        goal_tolerance: args.goal_tolerance,
+        motion: args.motion,
+        start_heading: args.start_heading,
+        goal_heading: args.goal_heading,
+        deadline_ms: args.deadline,
+        budget_steps: args.budget,
+        seed: Some(args.seed),
+    }
+}
+
+impl Session {
+    fn new(ground: Ground, config: PlannerConfig, begun: Instant) -> Result<Self> {
+        let setup = Instant::now();
+        let planner = Planner::new(&ground.map, ground.vehicle.vehicle.clone(), config.clone())?;
+        Ok(Self {
+            obstacles: planner.obstacles().clone(),
+            planner,
+            ground,
+            config,
+            map_setup_s: setup.elapsed().as_secs_f64(),
+            begun,
+        })
+    }
+
+    /// Plans one request; what it leaves out comes from `defaults`.
+    pub(super) fn ask(
+        &mut self,
+        request: &RequestDocument,
+        defaults: &RequestDocument,
+        seed: Seed,
+    ) -> Answered {
+        let mut clock = Clock::begin();
+        let planned = request.onto(defaults).map_err(PlanError::from);
+        let request = planned.as_ref().ok().cloned();
+        let result = planned.and_then(|request| self.planner.plan(&request, seed, &mut clock));
+        let timing = Timing {
+            map_setup_s: self.map_setup_s,
+            first_feasible_s: clock.first_feasible_s(),
+            query_s: clock.query_s(),
+            total_s: self.begun.elapsed().as_secs_f64(),
+        };
+        Answered {
+            answer: self
+                .context()
+                .answer(request.as_ref(), seed, &result, timing),
+            result,
+            n_improvements: clock.n_improvements(),
+        }
+    }
+
+    /// What all answers of this session share.
+    pub(super) fn context(&self) -> AnswerContext<'_> {
+        AnswerContext {
+            obstacles: &self.obstacles,
+            map: self.ground.record.clone(),
+            vehicle: &self.ground.vehicle.vehicle,
+            vehicle_name: &self.ground.vehicle.name,
+            config: &self.config,
+        }
+    }
+}
+
+impl Answered {
+    fn ending(&self) -> Ending {
+        match &self.result {
+            Ok(Outcome::Found(_)) => Ending::Done,
+            Ok(Outcome::NotFound(_)) => Ending::NoPath,
+            Err(_) => Ending::Refused,
+        }
+    }
+}
+
+fn write_files(
+    session: &Session,
+    answered: &Answered,
+    (out, picture): (Option<Target<OutKind>>, Option<Target<PictureKind>>),
+) -> Result<()> {
+    if let Some(target) = out {
+        match (target.kind, &answered.answer.path) {
+            (OutKind::Answer, _) => {
+                let mut json = serde_json::to_vec(&answered.answer)?;
+                json.push(b'\n');
+                target.write(&json)?;
+            }
+            (OutKind::Poses, Some(path)) => target.write(path.poses_csv().as_bytes())?,
+            (OutKind::Poses, None) => {
+                note(&format!(
+                    "no path: {} is not written",
+                    target.path().display()
+                ));
+            }
+        }
+    }
+    if let (Some(target), Ok(outcome)) = (picture, &answered.result) {
+        let ground = &session.ground;
+        let image = picture::of(ground, &answered.answer, outcome);
+        target.write(&picture::encode(&image, target.kind)?)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,101 @@
+//! `plan --stdin`: a request per line, an answer per line, one warm planner.
+
+use super::plan::Session;
+use crate::failure::{Ending, Failure};
+use anyhow::{Context, Result};
+use formicar::numeric::Seed;
+use formicar::planner::{Answer, RequestDocument};
+use std::io::{BufRead, Read, Write};
+
+/// The longest line that is read, bytes.
+const MAX_LINE: u64 = 1 << 20;
+
+/// Answers until the input ends. A bad line gets an answer that says so; the session goes on.
+pub(super) fn run(
+    session: &mut Session,
+    defaults: &RequestDocument,
+    seed: Seed,
+    out: &mut impl Write,
+) -> Result<Ending, Failure> {
+    let mut input = std::io::stdin().lock();
+    let mut n_lines = 0;
+    while let Some(line) = next_line(&mut input).context("stdin cannot be read")? {
+        n_lines += 1;
+        if line.trim_ascii().is_empty() {
+            continue;
+        }
+        let answer = match parse(&line) {
+            Ok(request) => reply(session, &request, defaults, seed),
+            Err(problem) => session
+                .context()
+                .unreadable(format!("line {n_lines}: {problem}"), seed),
+        };
+        serde_json::to_writer(&mut *out, &answer).map_err(std::io::Error::from)?;
+        writeln!(out)?;
+        out.flush()?;
+    }
+    Ok(Ending::Done)
+}
+
+fn reply(
+    session: &mut Session,
+    request: &RequestDocument,
+    defaults: &RequestDocument,
+    seed: Seed,
+) -> Answer {
+    let seed = request.seed.map_or(seed, Seed);
+    let mut answer = session.ask(request, defaults, seed).answer;
+    answer.id.clone_from(&request.id);
+    answer
+}
+
+fn parse(line: &[u8]) -> Result<RequestDocument, String> {
+    if line.len() as u64 > MAX_LINE {
+        return Err(format!("more than {MAX_LINE} bytes"));
+    }
+    serde_json::from_slice(line).map_err(|e| {
+        format!("no request: {e}; hint: {{\"start\": [x, y, heading], \"goal\": [x, y, heading]}}")
+    })
+}
+
+/// The next line without holding more than [`MAX_LINE`] bytes of it and one to tell.
+fn next_line(input: &mut impl BufRead) -> std::io::Result<Option<Vec<u8>>> {
+    let mut line = Vec::new();
+    input
+        .by_ref()
+        .take(MAX_LINE + 1)
+        .read_until(b'\n', &mut line)?;
+    if line.is_empty() {
+        return Ok(None);
+    }
+    if line.last() == Some(&b'\n') {
+        line.pop();
+    } else if line.len() as u64 > MAX_LINE {
+        input.skip_until(b'\n')?;
+    }
+    Ok(Some(line))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_end_at_line_ends_and_at_the_end() {
+        let mut input: &[u8] = b"one\n\ntwo";
+        let mut next = || next_line(&mut input).unwrap();
+        assert_eq!(next().unwrap(), b"one");
+        assert_eq!(next().unwrap(), b"");
+        assert_eq!(next().unwrap(), b"two");
+        assert_eq!(next(), None);
+    }
+
+    #[test]
+    fn a_line_beyond_the_limit_is_refused_and_passed_over() {
+        let long = vec![b' '; 2 << 20];
+        let text = [&long[..], b"\n{}"].concat();
+        let mut input = &text[..];
+        assert!(parse(&next_line(&mut input).unwrap().unwrap()).is_err());
+        assert_eq!(next_line(&mut input).unwrap().unwrap(), b"{}");
+    }
+}

@@ -1,0 +1,68 @@
+//! Output files: refused before planning where they cannot be written, then written in one go.
+
+use anyhow::{Context, Result, bail};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A file that can be written, by what belongs in it.
+#[derive(Clone, Debug)]
+pub(crate) struct Target<Kind> {
+    path: PathBuf,
+    pub(crate) kind: Kind,
+}
+
+impl<Kind: Copy> Target<Kind> {
+    /// A target whose extension is one of `kinds` and whose folder takes files.
+    pub(crate) fn new(path: &Path, kinds: &[(&str, Kind)]) -> Result<Self> {
+        let extension = path
+            .extension()
+            .and_then(|e| e.to_str())
+            .unwrap_or_default();
+        let kind = kinds
+            .iter()
+            .find(|(known, _)| extension.eq_ignore_ascii_case(known));
+        let Some(&(_, kind)) = kind else {
+            let known: Vec<_> = kinds.iter().map(|(known, _)| format!(".{known}")).collect();
+            bail!(
+                "{}: cannot tell what to write; the name must end in {}",
+                path.display(),
+                known.join(" or ")
+            );
+        };
+        check_writable(path).with_context(|| format!("{} cannot be written", path.display()))?;
+        Ok(Self {
+            path: path.to_owned(),
+            kind,
+        })
+    }
+
+    /// Writes the whole file, or nothing.
+    pub(crate) fn write(&self, bytes: &[u8]) -> Result<()> {
+        formicar::map::format::write_atomically(&self.path, bytes)
+            .with_context(|| format!("{} cannot be written", self.path.display()))
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+/// Whether a file can be put there: found out by putting an empty one beside it.
+fn check_writable(path: &Path) -> Result<()> {
+    if fs::metadata(path).is_ok_and(|found| !found.is_file()) {
+        bail!("it exists and is no regular file; hint: give another name");
+    }
+    let folder = match path.parent() {
+        Some(parent) if parent != Path::new("") => parent,
+        _ => Path::new("."),
+    };
+    if !folder.is_dir() {
+        bail!(
+            "the folder {} does not exist; hint: make it first",
+            folder.display()
+        );
+    }
+    let probe = folder.join(format!(".formicar-probe-{}", std::process::id()));
+    fs::write(&probe, b"").context("hint: give a folder that takes files")?;
+    fs::remove_file(&probe).context("the folder keeps its files")
+}

@@ -1,0 +1,86 @@
+//! Pictures of answers.
+
+use crate::ground::Ground;
+use anyhow::Result;
+use formicar::geometry::Pose2;
+use formicar::planner::{Answer, Outcome, PathDocument};
+use formicar::render::{Picture, PlanPicture, ProfilePoint, plan_picture};
+
+/// The formats of pictures.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum PictureKind {
+    Svg,
+    Png,
+}
+
+/// File extensions and their formats.
+pub(crate) const KINDS: [(&str, PictureKind); 2] =
+    [("svg", PictureKind::Svg), ("png", PictureKind::Png)];
+
+/// Width of a PNG, pixels.
+const PNG_WIDTH_PX: u32 = 1600;
+
+/// The picture of an answer, with or without a path.
+pub(crate) fn of(ground: &Ground, answer: &Answer, outcome: &Outcome) -> Picture {
+    let pose = |ends: Option<[f64; 3]>| {
+        let [x, y, heading] = ends.unwrap_or_default();
+        Pose2::new(x, y, heading)
+    };
+    let request = answer.provenance.request.clone().unwrap_or_default();
+    let (path, report) = match outcome {
+        Outcome::Found(plan) => (Some(&plan.path), Some(&*plan.certificate)),
+        Outcome::NotFound(failure) => {
+            let refused = failure.refused.as_ref();
+            (
+                refused.map(|(path, _)| path),
+                refused.map(|(_, report)| report),
+            )
+        }
+    };
+    let profile = answer.path.as_ref().map(profile).unwrap_or_default();
+    plan_picture(&PlanPicture {
+        map: &ground.map,
+        vehicle: &ground.vehicle.vehicle,
+        start: pose(request.start),
+        goal: pose(request.goal),
+        path,
+        profile: &profile,
+        tightest: report.map(|r| (r.tightest.position(), r.min_clearance_m)),
+        title: &format!(
+            "{}: {} by {}",
+            ground.record.name, answer.status, answer.planner
+        ),
+        caption: &caption(answer),
+    })
+}
+
+/// The bytes of a picture.
+pub(crate) fn encode(picture: &Picture, kind: PictureKind) -> Result<Vec<u8>> {
+    Ok(match kind {
+        PictureKind::Svg => picture.to_svg().into_bytes(),
+        PictureKind::Png => picture.to_png(PNG_WIDTH_PX)?,
+    })
+}
+
+fn profile(path: &PathDocument) -> Vec<ProfilePoint> {
+    let point = |pose: &formicar::planner::PoseRecord| ProfilePoint {
+        s_m: pose.s,
+        curvature_per_m: pose.curvature,
+        steer_rad: pose.steer,
+        clearance_m: pose.clearance,
+        direction: pose.direction,
+    };
+    path.poses.iter().map(point).collect()
+}
+
+fn caption(answer: &Answer) -> String {
+    match (&answer.reason, &answer.path, &answer.certificate) {
+        (None, Some(path), Some(certificate)) => format!(
+            "{:.2} m, clearance {:.2} m, largest curvature {:.2} 1/m",
+            path.poses.last().map_or(0.0, |pose| pose.s),
+            certificate.min_clearance_m,
+            certificate.max_curvature_per_m
+        ),
+        (reason, ..) => reason.clone().unwrap_or_default(),
+    }
+}

@@ -1,0 +1,151 @@
+//! Planner parameters from a TOML file and `--set key=value`.
+
+use anyhow::{Context, Result, anyhow, bail};
+use formicar::planner::{PlannerConfig, PlannerName};
+use std::path::Path;
+use toml::{Table, Value};
+
+/// The parameters: defaults, then the file, then single keys, then the planner's name.
+pub(crate) fn load(
+    file: Option<&Path>,
+    sets: &[String],
+    planner: Option<PlannerName>,
+) -> Result<PlannerConfig> {
+    let mut table = match file {
+        Some(path) => read(path)?,
+        None => Table::new(),
+    };
+    for set in sets {
+        apply(&mut table, set)?;
+    }
+    let mut config: PlannerConfig = table
+        .try_into()
+        .map_err(|e| anyhow!("planner parameters: {}", one_line(&e)))?;
+    if let Some(planner) = planner {
+        config.planner = planner;
+    }
+    config.check()?;
+    Ok(config)
+}
+
+fn read(path: &Path) -> Result<Table> {
+    let text = super::files::read_text(path)?;
+    let table: Table = text
+        .parse()
+        .map_err(|e| anyhow!("{}: {}", path.display(), one_line(&e)))?;
+    let known = known_keys();
+    match keys_of(&table, "")
+        .into_iter()
+        .find(|k| !is_known(k, &known))
+    {
+        Some(key) => Err(unknown_key(&key, &known)).with_context(|| path.display().to_string()),
+        None => Ok(table),
+    }
+}
+
+/// Sets one dotted key.
+fn apply(table: &mut Table, set: &str) -> Result<()> {
+    let Some((key, text)) = set.split_once('=') else {
+        bail!("--set {set:?}: expected KEY=VALUE, for instance hybrid_astar.weight=1.2");
+    };
+    let (key, known) = (key.trim(), known_keys());
+    if !known.iter().any(|k| k == key) {
+        return Err(unknown_key(key, &known)).with_context(|| format!("--set {set:?}"));
+    }
+    let mut parts: Vec<&str> = key.split('.').collect();
+    let last = parts.pop().unwrap_or_default();
+    let mut inner = table;
+    for part in parts {
+        let entry = inner
+            .entry(part)
+            .or_insert_with(|| Value::Table(Table::new()));
+        let Value::Table(next) = entry else {
+            bail!("--set {set:?}: {part} is no table in the configuration file");
+        };
+        inner = next;
+    }
+    inner.insert(last.to_owned(), value(text.trim()));
+    Ok(())
+}
+
+/// A TOML value; a bare word is a string.
+fn value(text: &str) -> Value {
+    let parsed = format!("v = {text}").parse::<Table>().ok();
+    let parsed = parsed
+        .filter(|table| table.len() == 1)
+        .and_then(|mut table| table.remove("v"));
+    parsed.unwrap_or_else(|| Value::String(text.to_owned()))
+}
+
+/// Every key that a configuration has, dotted.
+fn known_keys() -> Vec<String> {
+    Table::try_from(PlannerConfig::default())
+        .map(|table| keys_of(&table, ""))
+        .unwrap_or_default()
+}
+
+fn keys_of(table: &Table, prefix: &str) -> Vec<String> {
+    let keys = table.iter().flat_map(|(key, value)| {
+        let dotted = format!("{prefix}{key}");
+        match value {
+            Value::Table(inner) if !inner.is_empty() => keys_of(inner, &format!("{dotted}.")),
+            _ => vec![dotted],
+        }
+    });
+    keys.collect()
+}
+
+/// A key is known by itself or, as an empty table, by what could stand in it.
+fn is_known(key: &str, known: &[String]) -> bool {
+    let within = format!("{key}.");
+    known.iter().any(|k| k == key || k.starts_with(&within))
+}
+
+fn unknown_key(key: &str, known: &[String]) -> anyhow::Error {
+    anyhow!(
+        "no planner parameter is named {key:?}; there are {}",
+        known.join(", ")
+    )
+}
+
+fn one_line(error: &toml::de::Error) -> String {
+    error.message().replace('\n', " ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn with(sets: &[&str]) -> Result<PlannerConfig> {
+        let sets: Vec<_> = sets.iter().map(|s| (*s).to_owned()).collect();
+        load(None, &sets, None)
+    }
+
+    #[test]
+    fn sets_numbers_and_words() {
+        let config = with(&["hybrid_astar.weight=2", "planner=astar"]).unwrap();
+        assert_eq!(config.hybrid_astar.weight, 2.0);
+        assert_eq!(config.planner, PlannerName::Astar);
+    }
+
+    #[test]
+    fn unknown_keys_are_refused_with_the_keys_there_are() {
+        for bad in ["hybrid_astar.wieght=2", "weight=2", "hybrid_astar=2", "=2"] {
+            let message = format!("{:#}", with(&[bad]).unwrap_err());
+            assert!(message.contains("hybrid_astar.weight"), "{message}");
+        }
+    }
+
+    #[test]
+    fn values_out_of_range_or_kind_are_refused() {
+        for bad in [
+            "hybrid_astar.weight=0",
+            "hybrid_astar.weight=fast",
+            "planner=ants",
+            "planner",
+        ] {
+            assert!(with(&[bad]).is_err(), "{bad}");
+        }
+        assert!(with(&["hybrid_astar.weight=nan"]).is_err());
+    }
+}

@@ -1,0 +1,80 @@
+//! What a person reads after a query: two calm lines.
+
+use formicar::planner::Answer;
+use formicar::vehicle::Vehicle;
+use std::io::{self, Write};
+
+/// Writes the summary of an answer.
+pub(crate) fn write(
+    answer: &Answer,
+    vehicle: &Vehicle,
+    n_improvements: u32,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let (Some(path), Some(certificate)) = (&answer.path, &answer.certificate) else {
+        let reason = answer.reason.as_deref().unwrap_or_default();
+        writeln!(out, "{}  {reason}", answer.status)?;
+        return writeln!(out, "gave up after {}", duration(answer.timing.query_s));
+    };
+    let length_m = path.poses.last().map_or(0.0, |pose| pose.s);
+    let changes = path.segments.windows(2);
+    let n_cusps = changes.filter(|w| w[0].direction != w[1].direction).count();
+    writeln!(
+        out,
+        "{:<9}  {length_m:.2} m  clearance {:.2} m  {}{}",
+        answer.status,
+        certificate.min_clearance_m,
+        curvature(certificate.max_curvature_per_m, vehicle),
+        counted(n_cusps, "cusp"),
+    )?;
+    let first = answer
+        .timing
+        .first_feasible_s
+        .map_or(String::new(), |s| format!("first path {}, ", duration(s)));
+    writeln!(
+        out,
+        "certified  {}, {}     {first}improved {}, done at {}",
+        counted(path.poses.len(), "pose"),
+        counted(path.segments.len(), "segment"),
+        counted(n_improvements as usize, "time"),
+        duration(answer.timing.query_s),
+    )
+}
+
+/// Largest curvature against the limit; nothing for a point, which has none.
+fn curvature(largest_per_m: f64, vehicle: &Vehicle) -> String {
+    let limit = vehicle.max_curvature_per_m();
+    if limit.is_finite() {
+        format!("curvature {largest_per_m:.2} of {limit:.2} 1/m  ")
+    } else {
+        String::new()
+    }
+}
+
+/// A number with its noun.
+pub(crate) fn counted(n: usize, noun: &str) -> String {
+    let plural = if n == 1 { "" } else { "s" };
+    format!("{n} {noun}{plural}")
+}
+
+/// A time in the unit that suits it.
+fn duration(seconds: f64) -> String {
+    if seconds < 1.0 {
+        format!("{:.1} ms", seconds * 1e3)
+    } else {
+        format!("{seconds:.2} s")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_agree_with_their_nouns() {
+        assert_eq!(counted(1, "cusp"), "1 cusp");
+        assert_eq!(counted(0, "cusp"), "0 cusps");
+        assert_eq!(duration(0.0041), "4.1 ms");
+        assert_eq!(duration(2.5), "2.50 s");
+    }
+}

@@ -1,0 +1,154 @@
+//! Values as they are typed: poses, angles, polygons, words.
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use formicar::geometry::{Point2, Pose2};
+use formicar::scenario::GoalTolerance;
+use serde::de::DeserializeOwned;
+
+/// A finite number.
+fn number(text: &str) -> Result<f64, String> {
+    let value: f64 = text
+        .trim()
+        .parse()
+        .map_err(|_| format!("{text:?} is not a number"))?;
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(format!("{text:?} is not finite"))
+    }
+}
+
+/// An angle in radians, or in degrees with `deg` behind it.
+fn angle(text: &str) -> Result<f64, String> {
+    match text.trim().strip_suffix("deg") {
+        Some(degrees) => number(degrees).map(f64::to_radians),
+        None => number(text),
+    }
+}
+
+/// `X,Y,H`: metres, metres, radians (or `90deg`).
+pub(crate) fn pose(text: &str) -> Result<Pose2, String> {
+    let parts: Vec<_> = text.split(',').collect();
+    let [x, y, heading] = parts[..] else {
+        return Err(format!(
+            "{} numbers; expected X,Y,HEADING in metres and radians, for instance 2,3,90deg",
+            parts.len()
+        ));
+    };
+    Ok(Pose2::new(number(x)?, number(y)?, angle(heading)?))
+}
+
+/// `M,RAD`, both above 0.
+pub(crate) fn goal_tolerance(text: &str) -> Result<GoalTolerance, String> {
+    let Some((xy, yaw)) = text.split_once(',') else {
+        return Err("expected M,RAD: metres and radians, for instance 0.1,5deg".to_owned());
+    };
+    let tolerance = GoalTolerance {
+        xy_m: number(xy)?,
+        yaw_rad: angle(yaw)?,
+    };
+    if tolerance.xy_m > 0.0 && tolerance.yaw_rad > 0.0 {
+        Ok(tolerance)
+    } else {
+        Err("both must be above 0".to_owned())
+    }
+}
+
+/// `"x,y x,y x,y"` or `[[x, y], ...]`: at least three corners, in metres.
+pub(crate) fn polygon(text: &str) -> Result<Vec<Point2>, String> {
+    let points: Vec<Point2> = if text.trim_start().starts_with('[') {
+        let pairs: Vec<[f64; 2]> =
+            serde_json::from_str(text).map_err(|e| format!("{e}; expected [[x, y], ...]"))?;
+        pairs.into_iter().map(|[x, y]| Point2::new(x, y)).collect()
+    } else {
+        let corner = |pair: &str| {
+            let (x, y) = pair
+                .split_once(',')
+                .ok_or_else(|| format!("{pair:?} is not x,y"))?;
+            Ok(Point2::new(number(x)?, number(y)?))
+        };
+        text.split_whitespace()
+            .map(corner)
+            .collect::<Result<_, String>>()?
+    };
+    if points.len() < 3 {
+        return Err(format!(
+            "{} corners; a polygon has at least 3, for instance \"0,0 2,0 2,1\"",
+            points.len()
+        ));
+    }
+    Ok(points)
+}
+
+/// A finite number above 0.
+pub(crate) fn positive(text: &str) -> Result<f64, String> {
+    let value = number(text)?;
+    if value > 0.0 {
+        Ok(value)
+    } else {
+        Err("it must be above 0".to_owned())
+    }
+}
+
+/// A finite number, at least 0.
+pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
+    let value = number(text)?;
+    if value >= 0.0 {
+        Ok(value)
+    } else {
+        Err("it must be at least 0".to_owned())
+    }
+}
+
+/// One of the words of an enum of the library, as in files.
+pub(crate) fn word<T>(words: &'static [&'static str]) -> impl TypedValueParser<Value = T>
+where
+    T: DeserializeOwned + Clone + Send + Sync + 'static,
+{
+    PossibleValuesParser::new(words).try_map(|word| serde_json::from_value::<T>(word.into()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use formicar::scenario::GoalHeading;
+
+    #[test]
+    fn reads_poses_in_radians_and_degrees() {
+        assert_eq!(pose("-2,3.5,-1").unwrap(), Pose2::new(-2.0, 3.5, -1.0));
+        let up = pose("0, 0, 90deg").unwrap();
+        assert_eq!(up.heading, std::f64::consts::FRAC_PI_2);
+    }
+
+    #[test]
+    fn refuses_what_is_no_pose() {
+        for bad in [
+            "", "1,2", "1,2,3,4", "a,2,3", "nan,0,0", "1,inf,0", "1,2,deg",
+        ] {
+            assert!(pose(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn reads_polygons_in_both_ways() {
+        let plain = polygon("0,0 2,0 2,-1").unwrap();
+        assert_eq!(plain, polygon("[[0, 0], [2, 0], [2, -1]]").unwrap());
+        for bad in [
+            "0,0 1,1",
+            "0,0 1 2,2",
+            "[[0,0],[1,1]]",
+            "[[0]]",
+            "0,0 1,1 2,nan",
+        ] {
+            assert!(polygon(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn words_are_those_of_files() {
+        let parser = word::<GoalHeading>(&["exact", "bidirectional", "any"]);
+        let command = clap::Command::new("test").arg(clap::Arg::new("w").value_parser(parser));
+        let matches = command.try_get_matches_from(["test", "any"]).unwrap();
+        assert_eq!(matches.get_one::<GoalHeading>("w"), Some(&GoalHeading::Any));
+    }
+}

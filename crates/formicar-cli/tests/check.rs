@@ -1,0 +1,112 @@
+//! `check`: the judge on answers and on foreign paths.
+
+mod common;
+
+use common::Room;
+use serde_json::{Value, json};
+
+#[test]
+fn an_answer_is_confirmed_with_its_hashes() {
+    let room = Room::new();
+    assert_eq!(room.plan(&["--out", "path.json"]).code, 0);
+    let run = room.run(&["check", "path.json", "--map", "room.yaml", "--json"]);
+    assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
+    let checked = run.json();
+    let planned: Value = serde_json::from_str(&room.read("path.json")).unwrap();
+    assert_eq!(checked["certificate"], planned["certificate"]);
+    let all_match = json!({"map": true, "vehicle": true, "path": true});
+    assert_eq!(checked["matches_record"], all_match);
+}
+
+#[test]
+fn our_poses_alone_are_valid_too() {
+    let room = Room::new();
+    assert_eq!(room.plan(&["--out", "path.csv"]).code, 0);
+    let poses = room.read("path.csv");
+    let points: String = poses
+        .lines()
+        .map(|line| line.splitn(3, ',').take(2).collect::<Vec<_>>().join(",") + "\n")
+        .collect();
+    room.write("points.csv", points);
+    for (name, source) in [("path.csv", "poses"), ("points.csv", "points")] {
+        let run = room.run(&["check", name, "--map", "room.yaml", "--json"]);
+        assert_eq!(run.code, 0, "{name}: {}{}", run.stdout, run.stderr);
+        let checked = run.json();
+        assert_eq!(checked["source"], source);
+        assert_eq!(checked["curvature_slack"], 0.05);
+    }
+}
+
+#[test]
+fn what_cannot_be_driven_is_exit_3_with_every_reason() {
+    let room = Room::new();
+    room.write("wall.csv", "x,y\n2,2\n5,2\n8,2\n");
+    let run = room.run(&["check", "wall.csv", "--map", "room.yaml"]);
+    assert_eq!(run.code, 3, "{}{}", run.stdout, run.stderr);
+    assert!(run.stdout.starts_with("invalid"), "{}", run.stdout);
+    assert!(run.stdout.contains("5 % of slack") && run.stdout.contains("violation"));
+    room.write("corner.csv", "2,2\n3,2\n3,3\n3,4\n");
+    let run = room.run(&["check", "corner.csv", "--map", "room.yaml", "--json"]);
+    assert_eq!(run.code, 3, "{}", run.stdout);
+    assert_eq!(
+        run.json()["certificate"]["violations"][0]["kind"],
+        "curvature"
+    );
+}
+
+#[test]
+fn another_map_or_vehicle_than_certified_is_told() {
+    let room = Room::new();
+    assert_eq!(room.plan(&["--out", "path.json"]).code, 0);
+    let others = ["--margin", "0.01", "--keep-out", "1,7 1.2,7 1.2,7.2"];
+    let check = ["check", "path.json", "--map", "room.yaml"];
+    let run = room.run(&[&check[..], &others].concat());
+    assert!(
+        run.stdout.contains("another map and vehicle"),
+        "{}",
+        run.stdout
+    );
+}
+
+#[test]
+fn a_tampered_path_is_not_believed() {
+    let room = Room::new();
+    assert_eq!(room.plan(&["--out", "path.json"]).code, 0);
+    let mut answer: Value = serde_json::from_str(&room.read("path.json")).unwrap();
+    answer["path"]["segments"][0]["curvature"] = json!(9.0);
+    room.write("path.json", answer.to_string());
+    let run = room.run(&["check", "path.json", "--map", "room.yaml"]);
+    assert_eq!(run.code, 3, "{}", run.stdout);
+    assert!(run.stdout.contains("another path"), "{}", run.stdout);
+}
+
+#[test]
+fn files_that_are_no_paths_are_refused() {
+    let room = Room::new();
+    let cases = [
+        ("{}", "schema"),
+        (
+            "{\"schema\": \"formicar/answer/9\", \"status\": \"found\"}",
+            "formicar/answer/1",
+        ),
+        (
+            "{\"schema\": \"formicar/answer/1\", \"status\": \"no_path\"}",
+            "no_path",
+        ),
+        ("", "no rows"),
+        ("x,y\n1,nan\n", "line 2"),
+        ("x,y\n1,2\n1\n", "line 3"),
+        ("a,b\n1,2\n", "no column x"),
+        ("\u{0}\u{1}\u{2}", "bad"),
+    ];
+    for (text, word) in cases {
+        room.write("bad", text);
+        room.run(&["check", "bad", "--map", "room.yaml"])
+            .assert_refused(&["bad", word]);
+    }
+    room.run(&["check", "gone.csv", "--map", "room.yaml"])
+        .assert_refused(&["gone.csv"]);
+    room.write("bytes", [0xff_u8, 0xfe, 0x00]);
+    room.run(&["check", "bytes", "--map", "room.yaml"])
+        .assert_refused(&["bytes"]);
+}

@@ -1,0 +1,133 @@
+//! Runs the binary, and makes small maps for it.
+#![allow(dead_code, reason = "each test file uses its own part")]
+
+use serde_json::Value;
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// What a run printed, and its exit code.
+pub struct Run {
+    pub code: i32,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+impl Run {
+    /// The only line of stdout, as JSON.
+    pub fn json(&self) -> Value {
+        assert_eq!(
+            self.stdout.lines().count(),
+            1,
+            "{}{}",
+            self.stdout,
+            self.stderr
+        );
+        serde_json::from_str(&self.stdout).unwrap()
+    }
+
+    /// Asserts that the input was refused in words, without a panic.
+    pub fn assert_refused(&self, words: &[&str]) {
+        assert_eq!(self.code, 2, "{}{}", self.stdout, self.stderr);
+        assert_eq!(self.stdout, "");
+        assert!(!self.stderr.contains("panicked"), "{}", self.stderr);
+        for word in words {
+            assert!(
+                self.stderr.contains(word),
+                "no {word:?} in: {}",
+                self.stderr
+            );
+        }
+    }
+}
+
+/// Runs `formicar` with words, in a folder.
+pub fn formicar_in(folder: &Path, args: &[&str], input: &str) -> Run {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_formicar"))
+        .args(args)
+        .current_dir(folder)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // A run that refuses its flags does not read.
+    let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
+    let output = child.wait_with_output().unwrap();
+    Run {
+        code: output.status.code().unwrap(),
+        stdout: String::from_utf8(output.stdout).unwrap(),
+        stderr: String::from_utf8(output.stderr).unwrap(),
+    }
+}
+
+/// A room of 12 x 8 m at 0.2 m: walls around it and one across, with a door.
+pub struct Room {
+    pub folder: tempfile::TempDir,
+}
+
+const N_COLS: usize = 60;
+const N_ROWS: usize = 40;
+
+impl Room {
+    /// Writes `room.yaml` and `room.pgm`.
+    pub fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let wall = |col: usize, row: usize| {
+            let around = col == 0 || row == 0 || col == N_COLS - 1 || row == N_ROWS - 1;
+            around || (col == 30 && row < 26)
+        };
+        let mut image = format!("P5\n{N_COLS} {N_ROWS}\n255\n").into_bytes();
+        for row in (0..N_ROWS).rev() {
+            image.extend((0..N_COLS).map(|col| if wall(col, row) { 0 } else { 254 }));
+        }
+        fs::write(folder.path().join("room.pgm"), image).unwrap();
+        let yaml = "image: room.pgm\nresolution: 0.2\norigin: [0.0, 0.0, 0.0]\nnegate: 0\n\
+                    occupied_thresh: 0.65\nfree_thresh: 0.196\n";
+        fs::write(folder.path().join("room.yaml"), yaml).unwrap();
+        Self { folder }
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    pub fn write(&self, name: &str, contents: impl AsRef<[u8]>) {
+        fs::write(self.path(name), contents).unwrap();
+    }
+
+    pub fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap()
+    }
+
+    /// Runs in the room's folder.
+    pub fn run(&self, args: &[&str]) -> Run {
+        formicar_in(self.folder.path(), args, "")
+    }
+
+    /// Plans through the door of the room, with more flags.
+    pub fn plan(&self, more: &[&str]) -> Run {
+        let through = [
+            "plan",
+            "--map",
+            "room.yaml",
+            "--start",
+            "2,2,0",
+            "--goal",
+            "10,2,-90deg",
+        ];
+        self.run(&[&through[..], more].concat())
+    }
+
+    /// Files in the folder, sorted.
+    pub fn files(&self) -> Vec<String> {
+        let entries = fs::read_dir(self.folder.path()).unwrap();
+        let name = |entry: std::io::Result<fs::DirEntry>| {
+            entry.unwrap().file_name().into_string().unwrap()
+        };
+        let mut names: Vec<_> = entries.map(name).collect();
+        names.sort();
+        names
+    }
+}

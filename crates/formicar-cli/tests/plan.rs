@@ -1,0 +1,353 @@
+//! `plan`: answers, files, statuses and exit codes.
+
+mod common;
+
+use common::{Room, formicar_in};
+use serde_json::{Value, json};
+
+fn keys(object: &Value) -> Vec<&str> {
+    object
+        .as_object()
+        .unwrap()
+        .keys()
+        .map(String::as_str)
+        .collect()
+}
+
+#[test]
+fn the_answer_has_the_promised_fields() {
+    let answer = Room::new().plan(&["--json", "--seed", "7"]);
+    assert_eq!(answer.code, 0, "{}{}", answer.stdout, answer.stderr);
+    let answer = answer.json();
+    assert_eq!(answer["schema"], "formicar/answer/1");
+    assert_eq!(answer["status"], "found");
+    assert_eq!(
+        (&answer["code"], &answer["code_number"]),
+        (&json!("NONE"), &json!(0))
+    );
+    assert_eq!(answer["reason"], Value::Null);
+    assert_eq!(
+        (&answer["planner"], &answer["seed"]),
+        (&json!("hybrid-astar"), &json!(7))
+    );
+    let certificate = &answer["certificate"];
+    assert_eq!(certificate["valid"], true);
+    for key in [
+        "min_clearance_m",
+        "max_curvature_per_m",
+        "goal_error_m",
+        "goal_error_rad",
+    ] {
+        assert!(certificate[key].as_f64().unwrap() >= 0.0, "{key}");
+    }
+    assert_eq!(certificate["violations"], json!([]));
+    for key in ["map_hash", "vehicle_hash", "path_hash"] {
+        assert_eq!(certificate[key].as_str().unwrap().len(), 32, "{key}");
+    }
+    let timing = ["first_feasible_s", "map_setup_s", "query_s", "total_s"];
+    assert_eq!(keys(&answer["timing"]), timing);
+    assert!(answer["timing"]["first_feasible_s"].is_f64());
+    assert!(answer["metrics"]["length_m"].as_f64().unwrap() > 8.0);
+    let of_pose = [
+        "clearance",
+        "curvature",
+        "direction",
+        "heading",
+        "s",
+        "steer",
+        "x",
+        "y",
+    ];
+    assert_eq!(keys(&answer["path"]["poses"][0]), of_pose);
+    let of_segment = ["curvature", "direction", "heading", "length", "x", "y"];
+    assert_eq!(keys(&answer["path"]["segments"][0]), of_segment);
+    assert_eq!(answer["provenance"]["request"]["goal"][0], 10.0);
+}
+
+#[test]
+fn poses_are_dense_and_follow_their_segments() {
+    let answer = Room::new().plan(&["--json"]).json();
+    let number = |value: &Value, key: &str| value[key].as_f64().unwrap();
+    let poses = answer["path"]["poses"].as_array().unwrap();
+    for w in poses.windows(2) {
+        assert!(number(&w[1], "s") - number(&w[0], "s") <= 0.1 + 1e-9);
+    }
+    let last = poses.last().unwrap();
+    let segments = answer["path"]["segments"].as_array().unwrap();
+    let length_m: f64 = segments
+        .iter()
+        .map(|segment| number(segment, "length"))
+        .sum();
+    assert!((number(last, "s") - length_m).abs() < 1e-9);
+    assert!((number(last, "x") - 10.0).hypot(number(last, "y") - 2.0) <= 0.01);
+    for pose in poses {
+        let steer = (0.65 * number(pose, "curvature")).atan();
+        assert!((number(pose, "steer") - steer).abs() < 1e-12);
+        let least = number(&answer["certificate"], "min_clearance_m");
+        assert!(number(pose, "clearance") >= least - 1e-9);
+    }
+}
+
+#[test]
+fn runs_differ_in_their_timing_alone() {
+    let room = Room::new();
+    let [one, two] = ["1", "2"].map(|n_threads| {
+        let mut answer = room.plan(&["--json", "--threads", n_threads]).json();
+        answer["timing"] = Value::Null;
+        answer
+    });
+    assert_eq!(one, two);
+}
+
+#[test]
+fn two_calm_lines_for_people() {
+    let run = Room::new().plan(&[]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    let lines: Vec<_> = run.stdout.lines().collect();
+    assert_eq!(lines.len(), 2, "{}", run.stdout);
+    assert!(
+        lines[0].starts_with("found ") && lines[0].contains("of 1.29 1/m"),
+        "{}",
+        lines[0]
+    );
+    assert!(
+        lines[1].starts_with("certified ") && lines[1].contains("poses"),
+        "{}",
+        lines[1]
+    );
+    assert!(!run.stdout.contains('\u{1b}'));
+}
+
+#[test]
+fn writes_answer_poses_and_picture() {
+    let room = Room::new();
+    assert_eq!(
+        room.plan(&["--out", "path.json", "--picture", "path.svg"])
+            .code,
+        0
+    );
+    assert_eq!(room.plan(&["--out", "path.csv"]).code, 0);
+    let answer: Value = serde_json::from_str(&room.read("path.json")).unwrap();
+    let csv = room.read("path.csv");
+    let n_poses = answer["path"]["poses"].as_array().unwrap().len();
+    assert_eq!(csv.lines().count(), n_poses + 1);
+    assert!(csv.starts_with("x,y,heading,s,direction,curvature,steer,clearance\n"));
+    assert!(room.read("path.svg").contains("<svg"));
+    assert_eq!(
+        room.files(),
+        ["path.csv", "path.json", "path.svg", "room.pgm", "room.yaml"]
+    );
+}
+
+#[test]
+fn start_equal_to_goal_is_found_with_length_0() {
+    let answer = Room::new().run(&[
+        "plan",
+        "--map",
+        "room.yaml",
+        "--start",
+        "2,2,0",
+        "--goal",
+        "2,2,0",
+        "--json",
+    ]);
+    assert_eq!(answer.code, 0, "{}", answer.stdout);
+    assert_eq!(answer.json()["metrics"]["length_m"], 0.0);
+}
+
+#[test]
+fn a_closed_door_is_exit_3_with_a_reason() {
+    let room = Room::new();
+    let door = ["--keep-out", "6,5 6.2,5 6.2,8 6,8"];
+    let run = room.plan(&[&door[..], &["--out", "no.csv", "--json"]].concat());
+    assert_eq!(run.code, 3, "{}{}", run.stdout, run.stderr);
+    let answer = run.json();
+    assert_eq!(
+        (&answer["status"], &answer["code"]),
+        (&json!("no_path"), &json!("NO_VALID_PATH"))
+    );
+    assert!(answer["reason"].as_str().unwrap().len() > 10);
+    assert_eq!(answer["path"], Value::Null);
+    assert!(
+        run.stderr.contains("no.csv is not written"),
+        "{}",
+        run.stderr
+    );
+    assert_eq!(room.files(), ["room.pgm", "room.yaml"]);
+}
+
+#[test]
+fn a_spent_budget_says_so() {
+    let run = Room::new().plan(&["--budget", "1", "--json"]);
+    assert_eq!(run.code, 3);
+    assert_eq!(run.json()["status"], "budget_exhausted");
+}
+
+#[test]
+fn ends_outside_or_occupied_are_the_callers_fault_with_nav2_codes() {
+    let room = Room::new();
+    let cases = [
+        ("--start", "-5,2,0", "START_OUTSIDE_MAP", 203),
+        ("--goal", "50,2,0", "GOAL_OUTSIDE_MAP", 204),
+        ("--start", "6.1,2,0", "START_OCCUPIED", 205),
+        ("--goal", "6.1,2,0", "GOAL_OCCUPIED", 206),
+    ];
+    for (flag, pose, code, number) in cases {
+        let other = if flag == "--start" {
+            "--goal"
+        } else {
+            "--start"
+        };
+        let ends = ["plan", "--map", "room.yaml", flag, pose, other, "3,3,0"];
+        let run = room.run(&[&ends[..], &["--json", "--out", "no.json"]].concat());
+        assert_eq!(run.code, 2, "{}", run.stdout);
+        let answer = run.json();
+        assert_eq!(answer["status"], "invalid_request");
+        assert_eq!(
+            (&answer["code"], &answer["code_number"]),
+            (&json!(code), &json!(number))
+        );
+        room.run(&ends)
+            .assert_refused(&[flag.trim_start_matches('-'), "m"]);
+    }
+    assert_eq!(room.files(), ["room.pgm", "room.yaml"]);
+}
+
+#[test]
+fn built_in_maps_bring_start_goal_and_vehicle() {
+    let run = Room::new().run(&["plan", "--map", "warehouse", "--json"]);
+    assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
+    assert_eq!(run.json()["provenance"]["map"]["name"], "warehouse");
+}
+
+#[test]
+fn vehicles_come_from_toml_and_json() {
+    let room = Room::new();
+    let toml = "wheelbase_m = 0.5\nwidth_m = 0.5\nfront_overhang_m = 0.1\nrear_overhang_m = 0.1\n\
+                max_steer_deg = 35\n";
+    room.write("cart.toml", toml);
+    room.write(
+        "cart.json",
+        r#"{"footprint": "[[0.6,0.25],[-0.1,0.25],[-0.1,-0.25],[0.6,-0.25]]", "min_turning_radius": 0.8}"#,
+    );
+    assert_eq!(room.plan(&["--vehicle", "cart.toml"]).code, 0);
+    let answer = room
+        .plan(&["--vehicle", "cart.json", "--margin", "0.02", "--json"])
+        .json();
+    assert_eq!(answer["status"], "found");
+    assert_eq!(answer["path"]["poses"][0]["steer"], Value::Null);
+    assert_eq!(
+        answer["provenance"]["vehicle"]["parameters"]["safety_margin_m"],
+        0.02
+    );
+}
+
+#[test]
+fn parameters_come_from_file_and_flags() {
+    let room = Room::new();
+    room.write(
+        "planner.toml",
+        "[hybrid_astar]\nweight = 2.0\nreverse_penalty = 3.0\n",
+    );
+    let flags = [
+        "--config",
+        "planner.toml",
+        "--set",
+        "hybrid_astar.weight=1.2",
+        "--json",
+    ];
+    let config = room.plan(&flags).json()["provenance"]["config"]["hybrid_astar"].clone();
+    assert_eq!(
+        (&config["weight"], &config["reverse_penalty"]),
+        (&json!(1.2), &json!(3.0))
+    );
+}
+
+#[test]
+fn scenario_files_are_planned_by_id() {
+    let room = Room::new();
+    room.write(
+        "cars.json",
+        r#"{"version": 1, "frame": "map", "scenarios": [
+            {"id": "a", "map": "room.yaml", "resolution": 0.2, "start": [2, 2, 0], "goal": [4, 5, 1],
+             "vehicle": {"wheelbase": 0.65, "max_steer_deg": 40, "width": 0.62,
+                         "front_overhang": 0.125, "rear_overhang": 0.125}},
+            {"id": "b", "map": "room.yaml", "resolution": 0.2, "start": [2, 2, 0], "goal": [3, 4, 1],
+             "vehicle": {"wheelbase": 0.65, "max_steer_deg": 40, "width": 0.62,
+                         "front_overhang": 0.125, "rear_overhang": 0.125}}]}"#,
+    );
+    let run = room.run(&["plan", "--scenario", "cars.json", "--id", "b", "--json"]);
+    assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
+    assert_eq!(
+        run.json()["provenance"]["request"]["goal"],
+        json!([3.0, 4.0, 1.0])
+    );
+    room.run(&["plan", "--scenario", "cars.json"])
+        .assert_refused(&["--id", "a", "b"]);
+    room.run(&["plan", "--scenario", "cars.json", "--id", "c"])
+        .assert_refused(&["\"c\"", "a, b"]);
+}
+
+#[test]
+fn a_warm_planner_answers_line_by_line() {
+    let room = Room::new();
+    let lines = r#"{"id": 1, "goal": [4, 5, 1]}
+
+{"id": "two", "start": [2, 2, 0], "goal": [6.1, 2, 0]}
+nonsense
+{"goal": [4, 5, 1], "deadline": 3}
+{"id": {"n": 5}, "goal": [4, 5, 1], "seed": 3, "motion": "forward", "budget_steps": 1000000}
+{"id": 6}
+"#;
+    let args = ["plan", "--map", "room.yaml", "--start", "2,2,0", "--stdin"];
+    let run = formicar_in(room.folder.path(), &args, lines);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    let answers: Vec<Value> = run
+        .stdout
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    let of = |key: &str| answers.iter().map(|a| a[key].clone()).collect::<Vec<_>>();
+    assert_eq!(
+        of("status"),
+        [
+            "found",
+            "invalid_request",
+            "invalid_request",
+            "invalid_request",
+            "found",
+            "invalid_request"
+        ]
+    );
+    assert_eq!(
+        of("id"),
+        [
+            json!(1),
+            json!("two"),
+            Value::Null,
+            Value::Null,
+            json!({"n": 5}),
+            json!(6)
+        ]
+    );
+    assert_eq!(answers[1]["code"], "GOAL_OCCUPIED");
+    assert!(
+        answers[2]["reason"]
+            .as_str()
+            .unwrap()
+            .starts_with("line 4: ")
+    );
+    assert!(
+        answers[3]["reason"]
+            .as_str()
+            .unwrap()
+            .contains("deadline_ms")
+    );
+    assert_eq!(answers[4]["seed"], 3);
+    assert!(
+        answers[5]["reason"]
+            .as_str()
+            .unwrap()
+            .contains("goal is missing")
+    );
+}

@@ -1,0 +1,20 @@
+//! Maps and scenarios in files: the only part of the library that touches a file system.
+//!
+//! Every format has functions from text or bytes, and [`read_map`] and [`write_map`] choose one by
+//! the file's name, and by its contents where the name is not enough.
+
+mod car;
+mod error;
+mod files;
+mod grey_image;
+mod pgm;
+mod png_file;
+mod read;
+mod ros;
+
+pub use car::{CarScenario, parse_car_scenarios, read_car_scenarios};
+pub use error::{FormatError, FormatProblem, Place};
+pub use files::write_atomically;
+pub use grey_image::GreyImage;
+pub use read::{ReadOptions, read_map};
+pub use ros::{RosMapDescription, RosMapMode};

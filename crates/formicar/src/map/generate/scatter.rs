@@ -1,0 +1,73 @@
+//! Rectangles strewn at random: stress tests by density.
+
+use super::super::sketch::frame_at_origin;
+use super::super::{FREE, OCCUPIED, OccupancyGrid};
+use super::{GenerateError, ScatterParameters};
+use crate::numeric::Seed;
+
+/// A field of random rectangles that take the wanted share of the cells.
+///
+/// Nothing promises that two free cells are connected, the more so as the density grows.
+///
+/// # Errors
+/// Parameters out of range, or more cells than a map may have.
+pub fn scattered_obstacles(
+    parameters: &ScatterParameters,
+    seed: Seed,
+) -> Result<OccupancyGrid, GenerateError> {
+    parameters.check()?;
+    let (n_cols, n_rows) = (parameters.n_cols, parameters.n_rows);
+    let frame = frame_at_origin(n_cols, n_rows, parameters.resolution_m)?;
+    let mut values = vec![FREE; frame.n_cells()];
+    let mut random = seed.stream([0, 0]);
+    let mut n_missing = (parameters.density * frame.n_cells() as f64).round() as usize;
+    while n_missing > 0 {
+        let mut side = || 1 + random.below(parameters.max_obstacle_cells);
+        let (width, height) = (side(), side());
+        // Obstacles may stick out on every side, so that borders are as dense as the middle.
+        let first_col = (random.below(n_cols + width - 1) + 1).saturating_sub(width);
+        let first_row = (random.below(n_rows + height - 1) + 1).saturating_sub(height);
+        for row in first_row..(first_row + height).min(n_rows) {
+            let end = (first_col + width).min(n_cols);
+            let cells = &mut values[row * n_cols..][first_col..end];
+            let n_new = cells.iter().filter(|&&v| v == FREE).count();
+            cells.fill(OCCUPIED);
+            n_missing = n_missing.saturating_sub(n_new);
+        }
+    }
+    Ok(OccupancyGrid::new(frame, values)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn takes_the_wanted_share_of_cells() {
+        for (density, max_obstacle_cells) in [(0.0, 1), (0.1, 4), (0.5, 1), (0.8, 9)] {
+            let parameters = ScatterParameters {
+                density,
+                max_obstacle_cells,
+                ..ScatterParameters::default()
+            };
+            let map = scattered_obstacles(&parameters, Seed(1)).unwrap();
+            let share = map.lethal_cells().count() as f64 / 40_000.0;
+            assert!((0.0..0.003).contains(&(share - density)), "{share}");
+            assert_eq!(map, scattered_obstacles(&parameters, Seed(1)).unwrap());
+        }
+    }
+
+    #[test]
+    fn refuses_bad_parameters() {
+        let with = |change: fn(&mut ScatterParameters)| {
+            let mut parameters = ScatterParameters::default();
+            change(&mut parameters);
+            scattered_obstacles(&parameters, Seed(0)).is_err()
+        };
+        assert!(with(|p| p.density = f64::NAN));
+        assert!(with(|p| p.density = 0.9));
+        assert!(with(|p| p.max_obstacle_cells = 0));
+        assert!(with(|p| p.n_cols = 0));
+        assert!(with(|p| p.n_rows = usize::MAX));
+    }
+}

@@ -1,0 +1,221 @@
+//! The allowed moves of every cell in one byte each.
+
+use super::neighborhood::{DiagonalRule, STEPS};
+use super::{BitGrid, Cell};
+
+/// For each cell the set of its allowed steps to neighbors: bit `i` stands for [`STEPS`]`[i]`.
+///
+/// A step leads from a free cell to a free cell of the grid and obeys the diagonal rule, so that
+/// the opposite step is always allowed too. Built 64 cells at a time.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MoveMasks {
+    blocked: BitGrid,
+    rule: DiagonalRule,
+    masks: Vec<u8>,
+}
+
+impl MoveMasks {
+    /// The moves between the cells that are not blocked.
+    pub fn new(blocked: &BitGrid, rule: DiagonalRule) -> Self {
+        let (n_cols, n_rows) = (blocked.n_cols(), blocked.n_rows());
+        let mut masks = vec![0; n_cols * n_rows];
+        let [mut below, mut here, mut above] =
+            [-1, 0, 1].map(|row| load_free(vec![0; n_cols.div_ceil(64) + 2], blocked, row));
+        for row in 0..n_rows {
+            let cells = &mut masks[row * n_cols..][..n_cols];
+            for (w, cells) in cells.chunks_mut(64).enumerate() {
+                let rows = [&below, &here, &above].map(|free| shifts(&free[w..w + 3]));
+                cells.copy_from_slice(&interleave(moves(rows, rule))[..cells.len()]);
+            }
+            std::mem::swap(&mut below, &mut here);
+            std::mem::swap(&mut here, &mut above);
+            above = load_free(above, blocked, row as i64 + 2);
+        }
+        Self {
+            blocked: blocked.clone(),
+            rule,
+            masks,
+        }
+    }
+
+    /// Number of columns.
+    pub fn n_cols(&self) -> usize {
+        self.blocked.n_cols()
+    }
+
+    /// Number of rows.
+    pub fn n_rows(&self) -> usize {
+        self.blocked.n_rows()
+    }
+
+    /// The cells on which nothing may stand.
+    pub fn blocked(&self) -> &BitGrid {
+        &self.blocked
+    }
+
+    /// The rule that diagonal steps obey.
+    pub fn rule(&self) -> DiagonalRule {
+        self.rule
+    }
+
+    /// The allowed steps of a cell.
+    pub fn moves(&self, cell: Cell) -> u8 {
+        self.masks[self.index(cell)]
+    }
+
+    /// The allowed steps of all cells, row by row.
+    pub fn as_slice(&self) -> &[u8] {
+        &self.masks
+    }
+
+    /// The place of a cell, row by row.
+    pub fn index(&self, cell: Cell) -> usize {
+        cell.row as usize * self.n_cols() + cell.col as usize
+    }
+
+    /// The cell at a place.
+    pub fn cell(&self, index: usize) -> Cell {
+        let n_cols = self.n_cols();
+        Cell::new((index % n_cols) as u32, (index / n_cols) as u32)
+    }
+
+    /// What each of [`STEPS`] adds to the place of a cell.
+    pub fn offsets(&self) -> [isize; 8] {
+        STEPS.map(|(dx, dy)| dy as isize * self.n_cols() as isize + dx as isize)
+    }
+}
+
+/// The free cells of a row, none off the grid, with an empty word before and after.
+fn load_free(mut words: Vec<u64>, blocked: &BitGrid, row: i64) -> Vec<u64> {
+    words.fill(0);
+    if !(0..blocked.n_rows() as i64).contains(&row) {
+        return words;
+    }
+    for (free, &blocked) in words[1..].iter_mut().zip(blocked.row(row as usize)) {
+        *free = !blocked;
+    }
+    let n_last = blocked.n_cols() % 64;
+    if n_last != 0 {
+        let last = words.len() - 2;
+        words[last] &= (1 << n_last) - 1;
+    }
+    words
+}
+
+/// The middle of three words seen from one column to the east, from here, and from the west: bit
+/// `i` of the results is bit `i - 1`, `i` and `i + 1` of the row.
+fn shifts(words: &[u64]) -> [u64; 3] {
+    [
+        words[1] << 1 | words[0] >> 63,
+        words[1],
+        words[1] >> 1 | words[2] << 63,
+    ]
+}
+
+/// For each of [`STEPS`] the cells that may take it; from free cells by row (below, here, above)
+/// and column (west, here, east).
+fn moves(free: [[u64; 3]; 3], rule: DiagonalRule) -> [u64; 8] {
+    let at = |(dx, dy): (i32, i32)| free[(dy + 1) as usize][(dx + 1) as usize];
+    STEPS.map(|(dx, dy)| {
+        let (beside, ahead) = (at((dx, 0)), at((0, dy)));
+        let corner = match rule {
+            DiagonalRule::Always => u64::MAX,
+            DiagonalRule::AtMostOneObstacle => beside | ahead,
+            DiagonalRule::NoObstacles => beside & ahead,
+        };
+        // For a straight step one of the two is the cell itself, the other its target.
+        at((0, 0)) & at((dx, dy)) & corner
+    })
+}
+
+/// Byte `i` of the result holds bit `i` of each word: a transpose by swaps of ever smaller blocks
+/// (Warren, Hacker's Delight, 7-3), first of bits within bytes, then of bytes.
+fn interleave(mut words: [u64; 8]) -> [u8; 64] {
+    const BITS: [(usize, u64); 3] = [
+        (4, 0x0F0F_0F0F_0F0F_0F0F),
+        (2, 0x3333_3333_3333_3333),
+        (1, 0x5555_5555_5555_5555),
+    ];
+    const BYTES: [(usize, u64); 3] = [
+        (4, 0x0000_0000_FFFF_FFFF),
+        (2, 0x0000_FFFF_0000_FFFF),
+        (1, 0x00FF_00FF_00FF_00FF),
+    ];
+    for (distance, mask) in BITS {
+        swap_blocks(&mut words, distance, distance, mask);
+    }
+    for (distance, mask) in BYTES {
+        swap_blocks(&mut words, distance, 8 * distance, mask);
+    }
+    let mut bytes = [0; 64];
+    for (bytes, word) in bytes.as_chunks_mut::<8>().0.iter_mut().zip(words) {
+        *bytes = word.to_le_bytes();
+    }
+    bytes
+}
+
+fn swap_blocks(words: &mut [u64; 8], distance: usize, shift: usize, mask: u64) {
+    for i in (0..8).filter(|i| i & distance == 0) {
+        let swapped = (words[i] >> shift ^ words[i + distance]) & mask;
+        words[i + distance] ^= swapped;
+        words[i] ^= swapped << shift;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const RULES: [DiagonalRule; 3] = [
+        DiagonalRule::Always,
+        DiagonalRule::AtMostOneObstacle,
+        DiagonalRule::NoObstacles,
+    ];
+
+    fn by_definition(blocked: &BitGrid, rule: DiagonalRule, cell: Cell) -> u8 {
+        let free = |dx: i32, dy: i32| {
+            let (col, row) = (
+                i64::from(cell.col) + i64::from(dx),
+                i64::from(cell.row) + i64::from(dy),
+            );
+            let on_grid = col >= 0
+                && row >= 0
+                && col < blocked.n_cols() as i64
+                && row < blocked.n_rows() as i64;
+            on_grid && !blocked.contains(col, row)
+        };
+        let allowed = |&(dx, dy): &(i32, i32)| {
+            let n_obstacles = usize::from(!free(dx, 0)) + usize::from(!free(0, dy));
+            let corner = dx == 0 || dy == 0 || n_obstacles <= rule.max_corner_obstacles();
+            free(0, 0) && free(dx, dy) && corner
+        };
+        (0..8).filter(|&i| allowed(&STEPS[i])).map(|i| 1 << i).sum()
+    }
+
+    proptest! {
+        #[test]
+        fn moves_follow_the_rule(
+            n_cols in 1_usize..140,
+            n_rows in 1_usize..5,
+            blocked in prop::collection::vec(any::<u64>(), 15),
+        ) {
+            let mut grid = BitGrid::new(n_cols, n_rows);
+            for (i, word) in blocked.iter().enumerate() {
+                let (row, w) = (i / 3, i % 3);
+                for cell in super::super::bit_grid::set_bits(*word).map(|b| (w * 64) as u32 + b) {
+                    if row < n_rows && (cell as usize) < n_cols {
+                        grid.insert(Cell::new(cell, row as u32));
+                    }
+                }
+            }
+            for rule in RULES {
+                let moves = MoveMasks::new(&grid, rule);
+                for i in 0..n_cols * n_rows {
+                    let cell = moves.cell(i);
+                    prop_assert_eq!(moves.moves(cell), by_definition(&grid, rule, cell), "{:?}", cell);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,311 @@
+//! The answer document: one definition of what every front end prints about a query.
+
+use super::path_document::PathDocument;
+use super::{Outcome, PlanError, PlannerConfig, RequestDocument};
+use crate::collision::ObstacleMap;
+use crate::metrics::PathMetrics;
+use crate::numeric::Seed;
+use crate::path::CurvePath;
+use crate::scenario::{ErrorCode, Request, ScenarioError};
+use crate::validation::Report;
+use crate::vehicle::{Motion, Vehicle, VehicleParameters};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// Name and version of the answer document.
+pub const ANSWER_SCHEMA: &str = "formicar/answer/1";
+
+/// The status of a request that could not be asked; the others are those of a run.
+const INVALID_REQUEST: &str = "invalid_request";
+
+/// What came of one request.
+///
+/// Two runs of one request with one seed differ in `timing` alone.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Answer {
+    /// Name and version of this document: `formicar/answer/1`.
+    pub schema: &'static str,
+    /// The request's `id`, where it had one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub id: Option<serde_json::Value>,
+    /// `found`, `no_path`, `infeasible`, `budget_exhausted`, `timed_out`, `cancelled`, or
+    /// `invalid_request`.
+    pub status: &'static str,
+    /// Nav2's name of the outcome.
+    pub code: &'static str,
+    /// Nav2's number of the outcome.
+    pub code_number: u16,
+    /// Why there is no path; null where there is one.
+    pub reason: Option<String>,
+    /// The planner asked.
+    pub planner: &'static str,
+    /// The seed it was given.
+    pub seed: u64,
+    /// The judge's findings on the path found or, where the status is `infeasible`, refused.
+    pub certificate: Option<Report>,
+    /// Exact metrics of the path found.
+    pub metrics: Option<PathMetrics>,
+    /// How long it took, seconds.
+    pub timing: Timing,
+    /// The path, only if it is certified.
+    pub path: Option<PathDocument>,
+    /// What it takes to repeat the run.
+    pub provenance: Provenance,
+}
+
+/// Times in seconds; the caller measures them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
+pub struct Timing {
+    /// Preparing the map, once per map and vehicle.
+    pub map_setup_s: f64,
+    /// From the beginning of the query to its first certified path.
+    pub first_feasible_s: Option<f64>,
+    /// The query.
+    pub query_s: f64,
+    /// Everything, from reading the map to the end of the query.
+    pub total_s: f64,
+}
+
+/// What it takes to repeat a run.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Provenance {
+    /// Version of formicar.
+    pub version: &'static str,
+    /// Where the map came from, and how it was read.
+    pub map: MapRecord,
+    /// The vehicle.
+    pub vehicle: VehicleRecord,
+    /// The request with all its defaults; null where it could not be read.
+    pub request: Option<RequestDocument>,
+    /// Every parameter of the planner.
+    pub config: PlannerConfig,
+}
+
+/// Where a map came from, and how it was read.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
+pub struct MapRecord {
+    /// File or built-in name.
+    pub name: String,
+    /// Columns.
+    pub n_cols: usize,
+    /// Rows.
+    pub n_rows: usize,
+    /// Side of a cell, metres.
+    pub resolution_m: f64,
+    /// World pose of the lower left corner, `[x m, y m, yaw rad]`.
+    pub origin: [f64; 3],
+    /// How unknown cells were read: `free` or `occupied`.
+    pub unknown: String,
+    /// Areas closed for the vehicle, as corners `[x m, y m]`.
+    pub keep_out: Vec<Vec<[f64; 2]>>,
+}
+
+/// A vehicle by name and measures.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct VehicleRecord {
+    /// Preset or file.
+    pub name: String,
+    /// `car`, or `point`: holonomic, without measures.
+    pub motion: &'static str,
+    /// The measures; of a point, none.
+    pub parameters: VehicleParameters,
+}
+
+/// The standing facts that all answers of one planner share.
+#[derive(Clone, Debug)]
+pub struct AnswerContext<'a> {
+    /// The prepared map.
+    pub obstacles: &'a ObstacleMap,
+    /// The map's story; size, resolution and origin are filled in from `obstacles`.
+    pub map: MapRecord,
+    /// The vehicle.
+    pub vehicle: &'a Vehicle,
+    /// The vehicle's preset or file name.
+    pub vehicle_name: &'a str,
+    /// The planner's parameters.
+    pub config: &'a PlannerConfig,
+}
+
+impl AnswerContext<'_> {
+    /// The answer to a request that was planned or refused; `None` where it is incomplete.
+    pub fn answer(
+        &self,
+        request: Option<&Request>,
+        seed: Seed,
+        result: &Result<Outcome, PlanError>,
+        timing: Timing,
+    ) -> Answer {
+        let document = request.map(RequestDocument::from);
+        match result {
+            Ok(Outcome::Found(plan)) => Answer {
+                certificate: Some((*plan.certificate).clone()),
+                metrics: Some(plan.metrics.clone()),
+                path: Some(PathDocument::new(&plan.path, self.obstacles, self.vehicle)),
+                ..self.blank("found", ErrorCode::None, document, (seed, timing))
+            },
+            Ok(Outcome::NotFound(failure)) => Answer {
+                reason: Some(failure.reason.clone()),
+                certificate: failure.refused.as_ref().map(|(_, report)| report.clone()),
+                ..self.blank(
+                    failure.status.name(),
+                    failure.status.into(),
+                    document,
+                    (seed, timing),
+                )
+            },
+            Err(error) => Answer {
+                reason: Some(error.to_string()),
+                ..self.blank(INVALID_REQUEST, error.code(), document, (seed, timing))
+            },
+        }
+    }
+
+    /// The answer to a request that cannot be read.
+    pub fn unreadable(&self, reason: String, seed: Seed) -> Answer {
+        Answer {
+            reason: Some(reason),
+            ..self.blank(
+                INVALID_REQUEST,
+                ErrorCode::Unknown,
+                None,
+                (seed, Timing::default()),
+            )
+        }
+    }
+
+    fn blank(
+        &self,
+        status: &'static str,
+        code: ErrorCode,
+        request: Option<RequestDocument>,
+        (seed, timing): (Seed, Timing),
+    ) -> Answer {
+        Answer {
+            schema: ANSWER_SCHEMA,
+            id: None,
+            status,
+            code: code.name(),
+            code_number: code.number(),
+            reason: None,
+            planner: self.config.planner.name(),
+            seed: seed.0,
+            certificate: None,
+            metrics: None,
+            timing,
+            path: None,
+            provenance: self.provenance(request),
+        }
+    }
+
+    fn provenance(&self, request: Option<RequestDocument>) -> Provenance {
+        let frame = self.obstacles.frame();
+        let origin = frame.origin();
+        Provenance {
+            version: env!("CARGO_PKG_VERSION"),
+            map: MapRecord {
+                n_cols: frame.n_cols(),
+                n_rows: frame.n_rows(),
+                resolution_m: frame.resolution_m(),
+                origin: [origin.x, origin.y, origin.heading],
+                ..self.map.clone()
+            },
+            vehicle: VehicleRecord {
+                name: self.vehicle_name.to_owned(),
+                motion: match self.vehicle.motion() {
+                    Motion::Car => "car",
+                    Motion::Point => "point",
+                },
+                parameters: self.vehicle.parameters().clone(),
+            },
+            request,
+            config: self.config.clone(),
+        }
+    }
+}
+
+/// What `check` needs of an answer that was written earlier.
+#[derive(Clone, Debug)]
+pub struct StoredPath {
+    /// The path, from its segments.
+    pub path: CurvePath,
+    /// The request that it answered, if that is on record.
+    pub request: Option<Request>,
+    /// Hashes of its certificate, if it has one.
+    pub hashes: Option<CertificateHashes>,
+}
+
+/// What a certificate vouches for.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+pub struct CertificateHashes {
+    /// Hash of the map.
+    pub map_hash: String,
+    /// Hash of the vehicle.
+    pub vehicle_hash: String,
+    /// Hash of the path.
+    pub path_hash: String,
+}
+
+/// Why an answer cannot be read back.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum AnswerError {
+    /// No JSON, or not this document.
+    #[error("no answer document: {0}; hint: it is written by `plan --json` or `plan --out F.json`")]
+    Json(#[from] serde_json::Error),
+    /// Another document, or another version of it.
+    #[error("schema {found:?}; this version reads {ANSWER_SCHEMA:?}")]
+    Schema {
+        /// The schema found.
+        found: String,
+    },
+    /// An answer without a path.
+    #[error("the answer holds no path; its status is {status:?}")]
+    NoPath {
+        /// Its status.
+        status: String,
+    },
+    /// The request on record makes no sense.
+    #[error("the answer's request: {0}")]
+    Request(#[from] ScenarioError),
+}
+
+impl StoredPath {
+    /// Reads the path of an answer document. Nothing about the path is believed: the judge has
+    /// yet to see it.
+    ///
+    /// # Errors
+    /// Not an answer document of this version, or one without a path.
+    pub fn from_json(text: &str) -> Result<Self, AnswerError> {
+        let stored: StoredAnswer = serde_json::from_str(text)?;
+        if stored.schema != ANSWER_SCHEMA {
+            return Err(AnswerError::Schema {
+                found: stored.schema,
+            });
+        }
+        let path = stored.path.as_ref().and_then(PathDocument::curve_path);
+        let request = stored.provenance.and_then(|p| p.request);
+        let defaults = RequestDocument::default();
+        Ok(Self {
+            path: path.ok_or(AnswerError::NoPath {
+                status: stored.status,
+            })?,
+            request: request.map(|r| r.onto(&defaults)).transpose()?,
+            hashes: stored.certificate,
+        })
+    }
+}
+
+#[derive(Deserialize)]
+struct StoredAnswer {
+    schema: String,
+    status: String,
+    path: Option<PathDocument>,
+    certificate: Option<CertificateHashes>,
+    provenance: Option<StoredProvenance>,
+}
+
+#[derive(Deserialize)]
+struct StoredProvenance {
+    request: Option<RequestDocument>,
+}

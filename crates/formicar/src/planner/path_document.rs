@@ -1,0 +1,133 @@
+//! A path in files: sampled poses for followers, exact segments for the judge.
+
+use crate::collision::{Body, ObstacleMap};
+use crate::geometry::{Pose2, wrap_angle};
+use crate::path::{CurvePath, CurveSegment, Direction};
+use crate::vehicle::Vehicle;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::fmt::Write;
+
+/// Greatest distance between two poses of a written path, metres.
+pub const POSE_SPACING_M: f64 = 0.1;
+
+/// A path, world coordinates.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PathDocument {
+    /// Poses at most 0.1 m apart, with both ends of every segment.
+    pub poses: Vec<PoseRecord>,
+    /// The path itself, exactly.
+    pub segments: Vec<SegmentRecord>,
+}
+
+/// A sampled pose of the rear-axle centre.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PoseRecord {
+    /// Metres.
+    pub x: f64,
+    /// Metres.
+    pub y: f64,
+    /// Radians, counter-clockwise from the x axis, in (-pi, pi].
+    pub heading: f64,
+    /// Arc length driven so far, metres.
+    pub s: f64,
+    /// Gear in which the pose is reached: 1 forward, -1 in reverse.
+    #[schemars(with = "i8")]
+    pub direction: Direction,
+    /// tan(steer) / wheelbase where the pose is reached, 1/m, positive left.
+    pub curvature: f64,
+    /// Steering angle of the virtual middle wheel, radians; null where the wheelbase is unknown.
+    pub steer: Option<f64>,
+    /// Distance from the footprint to the nearest obstacle or map border, metres.
+    pub clearance: f64,
+}
+
+/// A line or arc; along it the heading changes by `direction * curvature * length`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SegmentRecord {
+    /// Start of the segment, metres.
+    pub x: f64,
+    /// Start of the segment, metres.
+    pub y: f64,
+    /// Heading at the start of the segment, radians.
+    pub heading: f64,
+    /// tan(steer) / wheelbase, 1/m, positive left.
+    pub curvature: f64,
+    /// Driven length, metres.
+    pub length: f64,
+    /// Gear: 1 forward, -1 in reverse.
+    #[schemars(with = "i8")]
+    pub direction: Direction,
+}
+
+impl PathDocument {
+    /// A path in world coordinates, measured against a map with a vehicle.
+    pub fn new(path: &CurvePath, obstacles: &ObstacleMap, vehicle: &Vehicle) -> Self {
+        let body = Body::new(vehicle);
+        let poses = path
+            .sample(POSE_SPACING_M)
+            .into_iter()
+            .map(|at| PoseRecord {
+                x: at.pose.x,
+                y: at.pose.y,
+                heading: wrap_angle(at.pose.heading),
+                s: at.s_m,
+                direction: at.direction,
+                curvature: at.curvature_per_m,
+                steer: vehicle.steer_rad(at.curvature_per_m),
+                clearance: obstacles.clearance_m(&body, obstacles.frame().to_grid(at.pose)),
+            });
+        Self {
+            poses: poses.collect(),
+            segments: path.segments().iter().map(SegmentRecord::from).collect(),
+        }
+    }
+
+    /// The path behind the document: from its segments, or standing still at its only pose.
+    pub fn curve_path(&self) -> Option<CurvePath> {
+        let segments: Vec<_> = self.segments.iter().map(CurveSegment::from).collect();
+        let standing = self.poses.first().map(|p| Pose2::new(p.x, p.y, p.heading));
+        let start = segments.first().map(|s| s.start).or(standing)?;
+        Some(CurvePath::from_segments(start, segments))
+    }
+
+    /// The poses as CSV, with a header; an unknown steering angle is left empty.
+    pub fn poses_csv(&self) -> String {
+        let mut text = String::from("x,y,heading,s,direction,curvature,steer,clearance\n");
+        for p in &self.poses {
+            let steer = p.steer.map_or(String::new(), |steer| steer.to_string());
+            let direction = i8::from(p.direction);
+            // Writing to a string does not fail.
+            let _ = writeln!(
+                text,
+                "{},{},{},{},{direction},{},{steer},{}",
+                p.x, p.y, p.heading, p.s, p.curvature, p.clearance
+            );
+        }
+        text
+    }
+}
+
+impl From<&CurveSegment> for SegmentRecord {
+    fn from(segment: &CurveSegment) -> Self {
+        Self {
+            x: segment.start.x,
+            y: segment.start.y,
+            heading: segment.start.heading,
+            curvature: segment.curvature_per_m,
+            length: segment.length_m,
+            direction: segment.direction,
+        }
+    }
+}
+
+impl From<&SegmentRecord> for CurveSegment {
+    fn from(record: &SegmentRecord) -> Self {
+        Self {
+            start: Pose2::new(record.x, record.y, record.heading),
+            curvature_per_m: record.curvature,
+            length_m: record.length,
+            direction: record.direction,
+        }
+    }
+}

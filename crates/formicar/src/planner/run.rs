@@ -1,0 +1,247 @@
+//! From a request to a certified path: search, curve, judge, metrics.
+
+use super::{NotFound, Outcome, Plan, PlanError, Planner, PlannerName};
+use crate::geometry::{Arc, Point2, Pose2};
+use crate::map::{BitGrid, Cell, MoveMasks};
+use crate::metrics::{ClearanceSummary, PathMetrics};
+use crate::numeric::Seed;
+use crate::path::{CurvePath, Direction, GridPath};
+use crate::progress::{Event, Limits, Status};
+use crate::scenario::{Request, StartHeading};
+use crate::search::{
+    AstarWorkspace, GoalField, GridSearch, HybridProblem, SearchError, astar, hybrid_astar,
+};
+use crate::validation::judge;
+use crate::vehicle::Motion;
+
+/// What a search found, before it is judged.
+pub(super) struct Found {
+    path: CurvePath,
+    grid: Option<GridSearch>,
+}
+
+/// A search that ended by itself without a path.
+pub(super) type Ended = Status;
+
+impl Planner {
+    /// Runs the configured search.
+    pub(super) fn search(
+        &mut self,
+        request: &Request,
+        limits: &mut Limits,
+    ) -> Result<Result<Found, Ended>, PlanError> {
+        let result = match self.config.planner {
+            PlannerName::HybridAstar if self.vehicle.motion() == Motion::Car => {
+                return self.drive(request, limits);
+            }
+            PlannerName::HybridAstar => {
+                return Err(PlanError::NeedsACar {
+                    planner: PlannerName::HybridAstar,
+                });
+            }
+            PlannerName::Astar => self.walk(request, limits, astar_path),
+            PlannerName::Dijkstra => self.walk(request, limits, field_path),
+        };
+        match result {
+            Ok(found) => Ok(Ok(found)),
+            Err(SearchError::Ended { status }) => Ok(Err(status)),
+            // The vehicle fits, but the disc that stands for it on the grid does not.
+            Err(SearchError::Blocked { .. }) => Ok(Err(Status::NoPath)),
+            Err(error) => Err(PlanError::Search(error)),
+        }
+    }
+
+    fn drive(
+        &self,
+        request: &Request,
+        limits: &mut Limits,
+    ) -> Result<Result<Found, Ended>, PlanError> {
+        let problem = HybridProblem::new(
+            &self.obstacles,
+            &self.vehicle,
+            &self.config.hybrid_astar,
+            request,
+        )?;
+        limits.tell(&Event::SearchStarted);
+        Ok(hybrid_astar(&problem, limits).map(|(start, arcs)| {
+            let start = match request.start_heading {
+                StartHeading::Exact => request.start,
+                StartHeading::Any => self.obstacles.frame().to_world(start).wrapped(),
+            };
+            Found {
+                path: curve(start, &arcs),
+                grid: None,
+            }
+        }))
+    }
+
+    /// A search over cells, on obstacles grown by half the vehicle's width.
+    fn walk(
+        &mut self,
+        request: &Request,
+        limits: &mut Limits,
+        search: impl FnOnce(
+            &MoveMasks,
+            [Cell; 2],
+            &mut AstarWorkspace,
+            &mut Limits,
+        ) -> Result<GridSearch, SearchError>,
+    ) -> Result<Found, SearchError> {
+        let (moves, workspace) = match self.grid.take() {
+            Some(ready) => self.grid.insert(ready),
+            None => {
+                let rule = self.config.grid_search.diagonal_rule;
+                let ready = (MoveMasks::new(&self.blocked(), rule), AstarWorkspace::new());
+                self.grid.insert(ready)
+            }
+        };
+        limits.tell(&Event::SearchStarted);
+        let frame = self.obstacles.frame();
+        let cell = |pose: Pose2| frame.cell_at(pose.position()).unwrap_or_default();
+        let found = search(
+            moves,
+            [cell(request.start), cell(request.goal)],
+            workspace,
+            limits,
+        )?;
+        let points = waypoints(&found.path, request, |cell| frame.center(cell));
+        Ok(Found {
+            path: CurvePath::from_polyline(&points),
+            grid: Some(found),
+        })
+    }
+
+    /// Cells on which the vehicle's middle may not be: within half its width of an obstacle.
+    fn blocked(&self) -> BitGrid {
+        let (low, high) = self.vehicle.footprint().bounds();
+        let half_width_cells = 0.5 * (high.y - low.y) / self.obstacles.frame().resolution_m();
+        let limit = f64::from(self.obstacles.distance().truncation_cells()) - 0.5;
+        let grown = self
+            .obstacles
+            .distance()
+            .within(half_width_cells.min(limit));
+        grown.unwrap_or_else(|| self.obstacles.lethal().clone())
+    }
+
+    /// Lets the judge decide, and says why where there is no path.
+    pub(super) fn conclude(
+        &self,
+        request: &Request,
+        seed: Seed,
+        found: Result<Found, Ended>,
+        limits: &mut Limits,
+    ) -> Outcome {
+        let n_steps = limits.n_steps();
+        let found = match found {
+            Ok(found) => found,
+            Err(status) => {
+                let reason = self.explain(request, status, n_steps);
+                return Outcome::NotFound(Box::new(NotFound {
+                    status,
+                    reason,
+                    refused: None,
+                    n_steps,
+                }));
+            }
+        };
+        match judge(&self.obstacles, &self.vehicle, request, &found.path).certify() {
+            Ok(certificate) => {
+                limits.tell(&Event::Improved {
+                    length_m: found.path.length_m(),
+                    n_steps,
+                });
+                let min_m = certificate.min_clearance_m;
+                let clearance =
+                    ClearanceSummary::new(&self.obstacles, &self.vehicle, &found.path, min_m);
+                let metrics = PathMetrics::new(&found.path, &self.vehicle, request.goal, clearance);
+                let planner = self.config.planner;
+                let grid_path = found.grid.map(|grid| grid.path);
+                Outcome::Found(Box::new(Plan {
+                    planner,
+                    seed,
+                    path: found.path,
+                    grid_path,
+                    certificate,
+                    metrics,
+                    n_steps,
+                }))
+            }
+            Err(report) => {
+                let n = report.violations.len();
+                let first = report
+                    .violations
+                    .first()
+                    .map_or(String::new(), |v| format!(": {}", v.message));
+                let reason = format!(
+                    "the judge refused the path that {} found, {n} violation{}{first}",
+                    self.config.planner.name(),
+                    if n == 1 { "" } else { "s, first" }
+                );
+                let refused = Some((found.path, *report));
+                Outcome::NotFound(Box::new(NotFound {
+                    status: Status::Infeasible,
+                    reason,
+                    refused,
+                    n_steps,
+                }))
+            }
+        }
+    }
+}
+
+fn astar_path(
+    moves: &MoveMasks,
+    [start, goal]: [Cell; 2],
+    workspace: &mut AstarWorkspace,
+    limits: &mut Limits,
+) -> Result<GridSearch, SearchError> {
+    astar(moves, start, goal, workspace, limits)
+}
+
+fn field_path(
+    moves: &MoveMasks,
+    [start, goal]: [Cell; 2],
+    _: &mut AstarWorkspace,
+    limits: &mut Limits,
+) -> Result<GridSearch, SearchError> {
+    GoalField::new(moves, &[goal], limits)?.path(moves, start)
+}
+
+fn curve(start: Pose2, arcs: &[Arc]) -> CurvePath {
+    let mut path = CurvePath::new(start);
+    for arc in arcs {
+        let direction = if arc.signed_length_m < 0.0 {
+            Direction::Reverse
+        } else {
+            Direction::Forward
+        };
+        path.push(arc.curvature_per_m, arc.length_m(), direction);
+    }
+    path
+}
+
+/// Start, the cells where the direction changes, goal; within the end cells straight lines join
+/// the poses to the centers.
+fn waypoints(path: &GridPath, request: &Request, center: impl Fn(Cell) -> Point2) -> Vec<Point2> {
+    let cells = &path.cells;
+    let step = |a: Cell, b: Cell| {
+        (
+            i64::from(b.col) - i64::from(a.col),
+            i64::from(b.row) - i64::from(a.row),
+        )
+    };
+    let corner = |i: usize| {
+        i == 0
+            || i + 1 == cells.len()
+            || step(cells[i - 1], cells[i]) != step(cells[i], cells[i + 1])
+    };
+    let mut points = vec![request.start.position()];
+    points.extend(
+        (0..cells.len())
+            .filter(|&i| corner(i))
+            .map(|i| center(cells[i])),
+    );
+    points.push(request.goal.position());
+    points.dedup_by(|a, b| a.distance(*b) < 1e-9);
+    points
+}

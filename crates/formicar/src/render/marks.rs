@@ -1,0 +1,203 @@
+//! What moves on a map: drivable paths, swept ground, poses, and the tightest place.
+
+use super::Scene;
+use super::legend::Swatch;
+use super::palette::{self, Color};
+use super::style::{Dash, PoseMark};
+use super::svg::{Element, PathData};
+use super::view::View;
+use crate::geometry::{Point2, Pose2};
+use crate::path::{CurvePath, CurveSegment, Direction};
+use crate::vehicle::{Motion, Vehicle};
+
+/// Most samples of a path, whatever its length.
+const MAX_SAMPLES: f64 = 3000.0;
+/// Outlines of vehicles shorter than this are not drawn along the path.
+const MIN_OUTLINE_PX: f64 = 9.0;
+/// Arrows of poses are at least this long, and so stand out ahead of small vehicles.
+const MIN_ARROW_PX: f64 = 32.0;
+
+impl Scene {
+    /// A drivable path as true arcs: solid forward, dashed in reverse, a dot at each change.
+    pub fn curve(&mut self, path: &CurvePath) -> &mut Self {
+        for gear in path.segments().chunk_by(|a, b| a.direction == b.direction) {
+            let line = self.arcs(gear);
+            let color = gear_color(gear[0].direction);
+            let casing = Element::path(line.clone()).pen(palette::PAGE, 5.0);
+            self.body.add(&casing.text("stroke-opacity", "0.8"));
+            let line = Element::path(line).pen(color, 2.6);
+            let (label, dash) = match gear[0].direction {
+                Direction::Forward => ("forward", Dash::Solid),
+                Direction::Reverse => ("reverse", Dash::Dashed),
+            };
+            self.body.add(&match dash.pattern() {
+                Some(p) => line
+                    .text("stroke-dasharray", p)
+                    .text("stroke-linecap", "butt"),
+                None => line,
+            });
+            self.legend.add(label, Swatch::Line(color, dash));
+        }
+        for pair in path.segments().windows(2) {
+            if pair[0].direction != pair[1].direction {
+                let dot = Element::circle(self.view.to_px(pair[1].start.position()), 3.4);
+                self.body
+                    .add(&dot.fill(palette::PAGE).pen(palette::INK, 1.6));
+                self.legend.add("change of gear", Swatch::Dot);
+            }
+        }
+        for pose in self.samples(path, 6.0) {
+            self.labels.keep_clear(self.view.to_px(pose.position()));
+        }
+        self
+    }
+
+    /// The ground that a vehicle sweeps along a path, with its outline every so often.
+    pub fn swept(&mut self, path: &CurvePath, vehicle: &Vehicle) -> &mut Self {
+        let (low, high) = vehicle.footprint().bounds();
+        let length_px = (high.x - low.x) * self.view.px_per_m();
+        if vehicle.motion() == Motion::Point || length_px < 1.0 {
+            return self;
+        }
+        let ground = self.footprints(
+            vehicle,
+            &self.samples(path, (0.12 * length_px).clamp(1.0, 2.0)),
+        );
+        let ground = Element::path(ground).fill(palette::SWEPT);
+        self.body.add(&ground.text("fill-opacity", "0.22"));
+        if length_px >= MIN_OUTLINE_PX {
+            let places = self.samples(path, (1.25 * length_px).max(24.0));
+            let outlines = Element::path(self.footprints(vehicle, &places));
+            let outlines = outlines.pen(palette::SWEPT.mix(palette::INK, 0.35), 0.8);
+            self.body.add(&outlines.text("stroke-opacity", "0.7"));
+        }
+        self.legend
+            .add("swept ground", Swatch::Area(palette::SWEPT));
+        self
+    }
+
+    /// A vehicle at an end of the path, with an arrow along its heading.
+    pub fn pose(&mut self, pose: Pose2, vehicle: &Vehicle, mark: PoseMark) -> &mut Self {
+        let (color, name) = match mark {
+            PoseMark::Start => (palette::START, "start"),
+            PoseMark::Goal => (palette::GOAL, "goal"),
+        };
+        let at = self.view.to_px(pose.position());
+        let (_, high) = vehicle.footprint().bounds();
+        let front_px = high.x * self.view.px_per_m();
+        let width_px = if front_px < MIN_ARROW_PX { 1.0 } else { 2.0 };
+        let body = Element::path(self.footprints(vehicle, &[pose])).fill(color);
+        let body = body.text("fill-opacity", "0.2").pen(color, width_px);
+        self.body.add(&body);
+        let reach_px = front_px.max(MIN_ARROW_PX);
+        if vehicle.motion() == Motion::Car {
+            self.arrow(at, View::direction(pose.heading), reach_px, color);
+        }
+        match mark {
+            PoseMark::Start => self.body.add(&Element::circle(at, 4.5).fill(color)),
+            PoseMark::Goal => {
+                let ring = Element::circle(at, 4.0).fill(palette::PAGE);
+                self.body.add(&ring.pen(color, 2.4));
+            }
+        }
+        for (a, b) in vehicle.footprint().placed(pose).edges() {
+            for i in 0..8 {
+                let place = a.lerp(b, f64::from(i) / 8.0);
+                self.labels.keep_clear(self.view.to_px(place));
+            }
+        }
+        if self.view.shows(at) {
+            self.labels.name(at, 12.0, (name, color));
+        }
+        self
+    }
+
+    /// Rings a place and writes its clearance.
+    pub fn tightest(&mut self, place: Point2, clearance_m: f64) -> &mut Self {
+        let at = self.view.to_px(place);
+        if !self.view.shows(at) {
+            return self;
+        }
+        let casing = Element::circle(at, 12.0).pen(palette::PAGE, 5.0);
+        self.body.add(&casing.text("stroke-opacity", "0.85"));
+        self.body
+            .add(&Element::circle(at, 12.0).pen(palette::LIMIT, 2.4));
+        let label = format!("{clearance_m:.2} m");
+        self.labels.name(at, 17.0, (&label, palette::LIMIT));
+        self.legend.add("tightest place", Swatch::Ring);
+        self
+    }
+
+    /// The outlines of the vehicle at those poses where the panel may show it.
+    fn footprints(&self, vehicle: &Vehicle, poses: &[Pose2]) -> PathData {
+        let mut path = PathData::default();
+        let (low, high) = self.view.bounds();
+        let reach = vehicle.footprint().circumradius();
+        let seen = |p: &&Pose2| {
+            let (x, y) = (
+                low.x - reach..=high.x + reach,
+                low.y - reach..=high.y + reach,
+            );
+            x.contains(&p.x) && y.contains(&p.y) && p.heading.is_finite()
+        };
+        for &pose in poses.iter().filter(seen) {
+            let placed = vehicle.footprint().placed(pose);
+            path.polygon(placed.corners().iter().map(|&p| self.view.to_px(p)));
+        }
+        path
+    }
+
+    /// Poses along a path, about as many pixels apart.
+    fn samples(&self, path: &CurvePath, spacing_px: f64) -> Vec<Pose2> {
+        // Nobody has checked the lengths: taken by size, they bound the samples of each segment.
+        let length_m: f64 = path.segments().iter().map(|s| s.length_m.abs()).sum();
+        if !length_m.is_finite() {
+            return Vec::new();
+        }
+        let spacing_m = (spacing_px / self.view.px_per_m()).max(length_m / MAX_SAMPLES);
+        path.sample(spacing_m).iter().map(|p| p.pose).collect()
+    }
+
+    fn arcs(&self, segments: &[CurveSegment]) -> PathData {
+        let mut path = PathData::default();
+        for segment in segments {
+            let start = self.view.to_px(segment.start.position());
+            path.line_to(start);
+            let turn = segment.curvature_per_m * segment.length_m;
+            let radius_px = self.view.px_per_m() / segment.curvature_per_m.abs();
+            // SVG arcs of less than half a turn are unambiguous; beyond 32 of them all is black.
+            let n_arcs = (turn.abs() / 2.0).ceil().clamp(1.0, 32.0);
+            for i in 1..=n_arcs as u32 {
+                let driven_m = segment.length_m * f64::from(i) / n_arcs;
+                let end = self.view.to_px(segment.pose_at(driven_m).position());
+                if radius_px > 1e5 {
+                    path.line_to(end);
+                } else {
+                    path.arc_to(radius_px, -turn * segment.direction.sign(), end);
+                }
+            }
+        }
+        path
+    }
+
+    fn arrow(&mut self, from: Point2, along: Point2, length_px: f64, color: Color) {
+        let tip = from + along * length_px;
+        let side = along.perpendicular() * 4.5;
+        let neck = tip - along * 10.0;
+        self.body.add(&Element::line(from, neck).pen(color, 2.4));
+        let mut head = PathData::default();
+        head.polygon([tip, neck + side, neck - side]);
+        let head = Element::path(head).fill(color);
+        self.body.add(&head.pen(palette::PAGE, 0.8));
+        for i in 0..=4 {
+            self.labels.keep_clear(from.lerp(tip, f64::from(i) / 4.0));
+        }
+    }
+}
+
+pub(super) fn gear_color(direction: Direction) -> Color {
+    match direction {
+        Direction::Forward => palette::FORWARD,
+        Direction::Reverse => palette::REVERSE,
+    }
+}

@@ -1,0 +1,145 @@
+//! A whole picture, and its two file formats.
+
+use super::Scene;
+use super::chart::Chart;
+use super::lettering::Lettering;
+use super::palette;
+use super::panel::LEFT_PX;
+use super::svg::{Element, Svg};
+use crate::geometry::Point2;
+
+const MARGIN_PX: f64 = 24.0;
+const GAP_PX: f64 = 26.0;
+/// Width of charts beside a scene, or without one.
+const COLUMN_PX: f64 = 460.0;
+const CHARTS_ALONE_PX: f64 = 900.0;
+/// Panels at least this wide have their charts below.
+const WIDE_PANEL_PX: f64 = 720.0;
+const TITLE: Lettering = Lettering::new(22.0, palette::INK).bold();
+const CAPTION: Lettering = Lettering::new(14.0, palette::MUTED);
+const DETAIL: Lettering = Lettering::new(13.0, palette::INK).bold();
+
+/// A scene with its title above and its charts below or beside it.
+#[derive(Clone, Debug, Default)]
+pub struct Picture {
+    /// The heading; empty for none.
+    pub title: String,
+    /// Key numbers or a reason, under the title; empty for none.
+    pub caption: String,
+    /// The map.
+    pub scene: Option<Scene>,
+    /// An enlarged part of the map and its heading; its legend is that of the map.
+    pub detail: Option<(Scene, String)>,
+    /// Charts, stacked.
+    pub charts: Vec<Chart>,
+}
+
+impl Picture {
+    /// The picture as an SVG document.
+    pub fn to_svg(&self) -> String {
+        let mut body = Svg::default();
+        let size = self.draw(&mut body);
+        let root = Element::new("svg")
+            .text("xmlns", "http://www.w3.org/2000/svg")
+            .number("width", size.x.ceil())
+            .number("height", size.y.ceil())
+            .text(
+                "viewBox",
+                &format!("0 0 {} {}", size.x.ceil(), size.y.ceil()),
+            )
+            .text("fill", "none")
+            .text("stroke-linecap", "round")
+            .text("stroke-linejoin", "round");
+        let mut page = Svg::default();
+        page.describe("title", &self.title);
+        page.describe("desc", &self.caption);
+        page.add(&Element::rectangle(Point2::default(), size).fill(palette::PAGE));
+        page.append(&body);
+        let mut document = Svg::default();
+        document.wrap(&root, &page);
+        document.as_str().to_owned()
+    }
+
+    /// Draws everything and returns the size of the page.
+    fn draw(&self, svg: &mut Svg) -> Point2 {
+        let width_px = self.width_px();
+        let top = self.draw_head(svg, width_px);
+        let bottom = match &self.scene {
+            None => self.draw_charts(svg, top, width_px - 2.0 * MARGIN_PX),
+            Some(scene) => {
+                scene.draw(svg, top);
+                let size = scene.size_px();
+                if self.charts_below(scene) {
+                    self.draw_below(svg, top + Point2::new(0.0, size.y), size.x)
+                } else {
+                    let beside = top + Point2::new(size.x + GAP_PX, 0.0);
+                    self.draw_beside(svg, beside).max(top.y + size.y)
+                }
+            }
+        };
+        Point2::new(width_px, bottom + MARGIN_PX)
+    }
+
+    fn charts_below(&self, scene: &Scene) -> bool {
+        scene.panel_px().x >= WIDE_PANEL_PX || self.charts.is_empty() && self.detail.is_none()
+    }
+
+    fn width_px(&self) -> f64 {
+        let content_px = match &self.scene {
+            None => CHARTS_ALONE_PX,
+            Some(scene) if self.charts_below(scene) => scene.size_px().x,
+            Some(scene) => scene.size_px().x + GAP_PX + COLUMN_PX,
+        };
+        content_px.max(480.0) + 2.0 * MARGIN_PX
+    }
+
+    /// Title and caption; returns where the rest begins.
+    fn draw_head(&self, svg: &mut Svg, width_px: f64) -> Point2 {
+        let mut y = MARGIN_PX;
+        for (style, text, line_px) in [(TITLE, &self.title, 30.0), (CAPTION, &self.caption, 21.0)] {
+            for line in style.wrapped(text, width_px - LEFT_PX - 2.0 * MARGIN_PX) {
+                y += line_px;
+                style.write(
+                    svg,
+                    Point2::new(MARGIN_PX + LEFT_PX, y - 0.4 * line_px),
+                    &line,
+                );
+            }
+        }
+        Point2::new(MARGIN_PX, if y > MARGIN_PX { y + 10.0 } else { y })
+    }
+
+    /// Charts, and the detail at their right; returns where they end.
+    fn draw_below(&self, svg: &mut Svg, at: Point2, width_px: f64) -> f64 {
+        let Some((detail, _)) = &self.detail else {
+            return self.draw_charts(svg, at + Point2::new(0.0, 8.0), width_px);
+        };
+        let start = at + Point2::new(0.0, 8.0);
+        let charts_px = width_px - detail.size_px().x - GAP_PX;
+        let charts_end = self.draw_charts(svg, start, charts_px);
+        let corner = start + Point2::new(charts_px + GAP_PX, 0.0);
+        self.draw_detail(svg, corner).max(charts_end)
+    }
+
+    fn draw_beside(&self, svg: &mut Svg, at: Point2) -> f64 {
+        let charts_end = self.draw_charts(svg, at, COLUMN_PX);
+        let gap = if self.charts.is_empty() { 0.0 } else { 12.0 };
+        self.draw_detail(svg, Point2::new(at.x, charts_end + gap))
+    }
+
+    fn draw_charts(&self, svg: &mut Svg, at: Point2, width_px: f64) -> f64 {
+        self.charts.iter().fold(at.y, |y, chart| {
+            chart.draw(svg, Point2::new(at.x, y), width_px);
+            y + chart.full_height_px()
+        })
+    }
+
+    fn draw_detail(&self, svg: &mut Svg, at: Point2) -> f64 {
+        let Some((detail, heading)) = &self.detail else {
+            return at.y;
+        };
+        DETAIL.write(svg, at + Point2::new(LEFT_PX, 16.0), heading);
+        detail.draw(svg, at + Point2::new(0.0, 24.0));
+        at.y + 24.0 + detail.size_px().y
+    }
+}

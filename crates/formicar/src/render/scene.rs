@@ -1,0 +1,221 @@
+//! A map with layers on it, north up.
+
+use super::cells::CellLayer;
+use super::labels::Labels;
+use super::legend::{Legend, Swatch};
+use super::palette::{self, Color};
+use super::style::{CellStyle, Dash, LineStyle};
+use super::svg::{Element, PathData, Svg};
+use super::view::{View, frame_bounds, frame_corners};
+use crate::geometry::Point2;
+use crate::map::{BitGrid, GridFrame, OCCUPIED, OccupancyGrid, UNKNOWN};
+use crate::path::{GridPath, WaypointPath};
+
+/// The largest panel of a map that is wider than high, pixels.
+const WIDE_PX: Point2 = Point2::new(1100.0, 740.0);
+/// The largest panel of any other map: charts stand beside it.
+const TALL_PX: Point2 = Point2::new(680.0, 820.0);
+/// From this ratio of width to height on a map counts as wide.
+const WIDE_RATIO: f64 = 1.4;
+/// Side of the panel of a detail.
+const DETAIL_PX: Point2 = Point2::new(330.0, 330.0);
+/// Cells of at least this size show their grid lines.
+const GRID_LINES_FROM_PX: f64 = 8.0;
+
+/// A map with layers: each call draws over what is there already.
+///
+/// World coordinates throughout; north is up, and a map with yaw stands askew.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    pub(super) frame: GridFrame,
+    pub(super) view: View,
+    pub(super) body: Svg,
+    pub(super) labels: Labels,
+    pub(super) legend: Legend,
+}
+
+impl Scene {
+    /// The whole of a map.
+    pub fn new(map: &OccupancyGrid) -> Self {
+        let (low, high) = frame_bounds(map.frame());
+        let extent = high - low;
+        let wide = extent.x >= WIDE_RATIO * extent.y;
+        let view = View::fit(low, high, if wide { WIDE_PX } else { TALL_PX });
+        Self::with_view(map, view)
+    }
+
+    /// The square around a place, `half_side_m` to each side: an enlarged detail.
+    pub fn detail(map: &OccupancyGrid, center: Point2, half_side_m: f64) -> Self {
+        let half = Point2::new(half_side_m, half_side_m);
+        let view = View::fit(center - half, center + half, DETAIL_PX);
+        Self::with_view(map, view)
+    }
+
+    fn with_view(map: &OccupancyGrid, view: View) -> Self {
+        let mut scene = Self {
+            frame: *map.frame(),
+            view,
+            body: Svg::default(),
+            labels: Labels::default(),
+            legend: Legend::default(),
+        };
+        scene.draw_map(map);
+        scene
+    }
+
+    /// Size of the panel alone, pixels.
+    pub(super) fn panel_px(&self) -> Point2 {
+        self.view.size_px()
+    }
+
+    pub(super) fn px_per_m(&self) -> f64 {
+        self.view.px_per_m()
+    }
+
+    /// Marks a set of cells of the map.
+    pub fn cells(&mut self, set: &BitGrid, style: &CellStyle) -> &mut Self {
+        let n_cols = self.frame.n_cols();
+        let place = (&self.frame, &self.view);
+        let layer = CellLayer::new(place.0, place.1, |i| {
+            u8::from(set.contains((i % n_cols) as i64, (i / n_cols) as i64))
+        });
+        layer.draw(&mut self.body, place, &[style.color]);
+        self.legend.add(&style.label, Swatch::Cell(style.color));
+        self.draw_grid_lines();
+        self
+    }
+
+    /// Colors cells by their value, row-major from the lowest row: pale for the smallest, dark
+    /// for the largest. Values that are not finite, and cells without one, stay as they are.
+    pub fn heat_map(&mut self, values: &[f32], label: &str) -> &mut Self {
+        let finite = values.iter().copied().filter(|v| v.is_finite());
+        let (low, high) = finite.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), v| {
+            (low.min(v), high.max(v))
+        });
+        if low > high {
+            return self;
+        }
+        let (low, high) = (f64::from(low), f64::from(high));
+        let range = if high > low { high - low } else { 1.0 };
+        let place = (&self.frame, &self.view);
+        let layer = CellLayer::new(place.0, place.1, |i| match values.get(i) {
+            Some(v) if v.is_finite() => 1 + (254.0 * (f64::from(*v) - low) / range) as u8,
+            _ => 0,
+        });
+        let colors: Vec<Color> = (0..255)
+            .map(|i| palette::heat(f64::from(i) / 254.0))
+            .collect();
+        layer.draw(&mut self.body, place, &colors);
+        self.legend.add(label, Swatch::Heat { low, high });
+        self.draw_grid_lines();
+        self
+    }
+
+    /// A path over cells, through their centers.
+    pub fn grid_path(&mut self, path: &GridPath) -> &mut Self {
+        let centers: Vec<Point2> = path.cells.iter().map(|&c| self.frame.center(c)).collect();
+        let style = LineStyle {
+            label: "grid path".to_owned(),
+            color: palette::WAYPOINTS,
+            width_px: 2.0,
+            dash: Dash::Dotted,
+        };
+        self.polyline(&centers, &style)
+    }
+
+    /// A polyline with its nodes.
+    pub fn waypoint_path(&mut self, path: &WaypointPath) -> &mut Self {
+        let style = LineStyle {
+            label: "way points".to_owned(),
+            color: palette::WAYPOINTS,
+            width_px: 2.0,
+            dash: Dash::Solid,
+        };
+        self.polyline(&path.points, &style);
+        for &point in &path.points {
+            let node = Element::circle(self.view.to_px(point), 3.2).fill(palette::PAGE);
+            self.body.add(&node.pen(palette::WAYPOINTS, 1.6));
+        }
+        self
+    }
+
+    /// A polyline in world coordinates.
+    pub fn polyline(&mut self, points: &[Point2], style: &LineStyle) -> &mut Self {
+        let line = PathData::polyline(points.iter().map(|&p| self.view.to_px(p)));
+        let line = Element::path(line).pen(style.color, style.width_px);
+        self.body.add(&match style.dash.pattern() {
+            Some(pattern) => line.text("stroke-dasharray", pattern),
+            None => line,
+        });
+        self.legend
+            .add(&style.label, Swatch::Line(style.color, style.dash));
+        self
+    }
+
+    fn draw_map(&mut self, map: &OccupancyGrid) {
+        let panel = self.view.size_px();
+        let off_map = Element::rectangle(Point2::default(), panel).fill(palette::OFF_MAP);
+        self.body.add(&off_map);
+        let ground = Element::path(self.map_outline()).fill(palette::FREE);
+        self.body.add(&ground);
+
+        // Graded cells take the levels of their cost; the unknown wins over them, obstacles over all.
+        let (unknown, obstacle) = (100, 101);
+        let place = (&self.frame, &self.view);
+        let layer = CellLayer::new(place.0, place.1, |i| match map.values()[i] {
+            OCCUPIED => obstacle,
+            UNKNOWN => unknown,
+            cost => cost.unsigned_abs(),
+        });
+        let graded =
+            (1..100).map(|cost| palette::FREE.mix(palette::GRADED, f64::from(cost) / 99.0));
+        let colors: Vec<Color> = graded
+            .chain([palette::UNKNOWN, palette::OBSTACLE])
+            .collect();
+        layer.draw(&mut self.body, place, &colors);
+        self.name_ground(&layer.levels_in_use());
+        self.draw_grid_lines();
+        let edge = Element::path(self.map_outline()).pen(palette::RULE, 1.0);
+        self.body.add(&edge);
+    }
+
+    fn name_ground(&mut self, used: &[bool; 256]) {
+        let kinds = [
+            ("obstacle", used[101], palette::OBSTACLE),
+            ("unknown", used[100], palette::UNKNOWN),
+            ("graded cost", used[1..100].contains(&true), palette::GRADED),
+        ];
+        for (label, _, color) in kinds.into_iter().filter(|kind| kind.1) {
+            self.legend.add(label, Swatch::Cell(color));
+        }
+    }
+
+    fn map_outline(&self) -> PathData {
+        let mut outline = PathData::default();
+        outline.polygon(frame_corners(&self.frame).map(|p| self.view.to_px(p)));
+        outline
+    }
+
+    fn draw_grid_lines(&mut self) {
+        let step_m = self.frame.resolution_m();
+        if step_m * self.view.px_per_m() < GRID_LINES_FROM_PX {
+            return;
+        }
+        let (cols, rows) = self.view.cells_in_view(&self.frame);
+        let at = |col: usize, row: usize| {
+            let local = Point2::new(col as f64, row as f64) * step_m;
+            self.view.to_px(self.frame.origin().transform(local))
+        };
+        let mut lines = PathData::default();
+        for col in cols.start..=cols.end {
+            lines.move_to(at(col, rows.start));
+            lines.line_to(at(col, rows.end));
+        }
+        for row in rows.start..=rows.end {
+            lines.move_to(at(cols.start, row));
+            lines.line_to(at(cols.end, row));
+        }
+        let lines = Element::path(lines).pen(palette::MUTED, 0.5);
+        self.body.add(&lines.text("stroke-opacity", "0.22"));
+    }
+}

@@ -1,0 +1,75 @@
+//! How layers look, as values.
+
+use super::palette::{self, Color};
+
+/// How a line is broken.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Dash {
+    /// Not at all.
+    #[default]
+    Solid,
+    /// Long strokes.
+    Dashed,
+    /// Short strokes.
+    Dotted,
+}
+
+impl Dash {
+    /// The pattern in pixels for a line of a width, as SVG wants it.
+    pub(super) fn pattern(self) -> Option<&'static str> {
+        match self {
+            Self::Solid => None,
+            Self::Dashed => Some("7 4"),
+            Self::Dotted => Some("2 3.5"),
+        }
+    }
+}
+
+/// A line with its name in the legend.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LineStyle {
+    /// Its name; empty to stay out of the legend.
+    pub label: String,
+    /// Its color.
+    pub color: Color,
+    /// Its width in pixels of a picture about 1200 wide.
+    pub width_px: f64,
+    /// How it is broken.
+    pub dash: Dash,
+}
+
+/// A set of cells with its name in the legend.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CellStyle {
+    /// Its name; empty to stay out of the legend.
+    pub label: String,
+    /// Its color.
+    pub color: Color,
+}
+
+impl CellStyle {
+    /// Cells by which obstacles were grown.
+    pub fn expanded() -> Self {
+        Self {
+            label: "expanded".to_owned(),
+            color: palette::EXPANDED,
+        }
+    }
+
+    /// Cells of closed U-shapes (Lei 2020).
+    pub fn closed() -> Self {
+        Self {
+            label: "closed U-shape".to_owned(),
+            color: palette::CLOSED,
+        }
+    }
+}
+
+/// Which end of a path a pose is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PoseMark {
+    /// Where the vehicle stands.
+    Start,
+    /// Where it should go.
+    Goal,
+}

@@ -1,0 +1,52 @@
+//! Costs of steps as integers, so that sums are exact and ties are ties.
+
+use crate::map::Cell;
+
+/// Cost of a straight step.
+pub const STRAIGHT_COST: u32 = 985;
+/// Cost of a diagonal step: 1393 / 985 is a convergent of sqrt(2), 2.6e-7 below it in proportion.
+pub const DIAGONAL_COST: u32 = 1393;
+
+/// Costs by place in [`STEPS`](crate::map::STEPS).
+pub(super) const STEP_COSTS: [u32; 8] = {
+    let mut costs = [STRAIGHT_COST; 8];
+    let mut i = 1;
+    while i < 8 {
+        costs[i] = DIAGONAL_COST;
+        i += 2;
+    }
+    costs
+};
+
+/// The largest cost from which a step may be taken; sums then fit 32 bits.
+pub(super) const MAX_COST: u32 = u32::MAX - 1 - DIAGONAL_COST;
+
+/// Cost between two cells on free ground (the octile distance), modulo 2^32.
+pub(super) fn octile(a: Cell, b: Cell) -> u32 {
+    let (dx, dy) = (a.col.abs_diff(b.col), a.row.abs_diff(b.row));
+    let (long, short) = (dx.max(dy), dx.min(dy));
+    long.wrapping_mul(STRAIGHT_COST)
+        .wrapping_add(short.wrapping_mul(DIAGONAL_COST - STRAIGHT_COST))
+}
+
+/// By the step that reached a cell from its best neighbor: the steps worth taking on, where all
+/// eight are allowed; all of them at [`NO_STEP`].
+///
+/// Every other neighbor is reached at no more cost past the cell: from the best neighbor itself
+/// or, by a diagonal step first and a straight one then, through a cell that offers that straight
+/// step unless it is a detour (Harabor & Grastien 2011, sec. 3, neighbor pruning). Which of two
+/// equal ways reached a cell first does not matter.
+pub(super) const ONWARD_STEPS: [u8; 9] = {
+    let mut onward = [0xFF_u8; 9];
+    let mut step = 0;
+    while step < 8 {
+        let ahead = 1_u8 << step;
+        let beside = ahead.rotate_left(1) | ahead.rotate_right(1);
+        onward[step] = if step % 2 == 0 { ahead } else { ahead | beside };
+        step += 1;
+    }
+    onward
+};
+
+/// In place of a step: none, the cell is a start.
+pub(super) const NO_STEP: usize = 8;

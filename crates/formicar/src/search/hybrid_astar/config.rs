@@ -1,0 +1,52 @@
+//! Parameters of hybrid A*.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Parameters of hybrid A*; costs are in metres of forward driving.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct HybridAstarConfig {
+    /// Weight of the heuristic, 1 to 10: at 1 the path is near the best on the lattice, more is
+    /// faster.
+    #[schemars(range(min = 1.0, max = 10.0))]
+    pub weight: f64,
+    /// Number of headings of the lattice, 16 to 360.
+    #[schemars(range(min = 16, max = 360))]
+    pub angle_quantization_bins: u32,
+    /// Least length of a motion primitive as a share of the turning radius, 0.05 to 1; never
+    /// shorter than one and a half map cells.
+    #[schemars(range(min = 0.05, max = 1.0))]
+    pub step_radii: f64,
+    /// Factor on the length driven in reverse, 1 to 100.
+    #[schemars(range(min = 1.0, max = 100.0))]
+    pub reverse_penalty: f64,
+    /// Cost of a change of gear, metres, 0 to 1000.
+    #[schemars(range(min = 0.0, max = 1000.0))]
+    pub change_penalty: f64,
+    /// Factor on the length driven with the wheels turned, 1 to 100.
+    #[schemars(range(min = 1.0, max = 100.0))]
+    pub non_straight_penalty: f64,
+    /// Factor on length near obstacles: 1 + `cost_penalty` at contact, falling to 1 at
+    /// `clearance_wish_m`; 0 to 100.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub cost_penalty: f64,
+    /// Clearance from which on obstacles no longer count, metres, 0 to 100.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub clearance_wish_m: f64,
+}
+
+impl Default for HybridAstarConfig {
+    fn default() -> Self {
+        Self {
+            weight: 1.5,
+            angle_quantization_bins: 72,
+            step_radii: 0.25,
+            reverse_penalty: 2.0,
+            change_penalty: 1.0,
+            non_straight_penalty: 1.05,
+            cost_penalty: 0.5,
+            clearance_wish_m: 0.5,
+        }
+    }
+}

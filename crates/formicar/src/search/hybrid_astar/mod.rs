@@ -1,0 +1,141 @@
+//! Hybrid A* (Dolgov, Thrun, Montemerlo & Diebel 2010): A* over motion primitives on an absolute
+//! heading lattice, guided by a goal field and by obstacle-free curves, ended by a curve that
+//! hits the goal pose.
+//!
+//! Positions stay continuous; a state is the lattice cell and heading they fall into. Whether a
+//! motion is free is asked when its state comes up, not when it is put on the list: most never
+//! come up.
+
+mod config;
+mod guide;
+mod open_list;
+mod problem;
+mod shots;
+mod state_set;
+mod tree;
+
+pub use config::HybridAstarConfig;
+pub use problem::HybridProblem;
+
+use crate::geometry::{Arc, Pose2};
+use crate::progress::{Limits, Status};
+use guide::Guide;
+use open_list::{Entry, OpenList, Step};
+use state_set::StateSet;
+use tree::{Node, Tree};
+
+/// Searches a drivable chain of arcs from start to goal, in grid coordinates.
+///
+/// A step of the limits is a state taken from the open list. The result is the start pose and the
+/// arcs; whether it is certified is the judge's to say.
+///
+/// # Errors
+/// The status to end with: no path on the lattice, budget, deadline or cancel.
+pub fn hybrid_astar(
+    problem: &HybridProblem,
+    limits: &mut Limits,
+) -> Result<(Pose2, Vec<Arc>), Status> {
+    let mut ended = Status::NoPath;
+    for inflation_m in problem.inflations_m() {
+        let Some(guide) = Guide::new(problem, inflation_m, limits)? else {
+            continue;
+        };
+        match Search::new(problem, &guide).run(limits) {
+            Err(Status::NoPath) => ended = Status::NoPath,
+            other => return other,
+        }
+    }
+    Err(ended)
+}
+
+/// The state of one search.
+struct Search<'a> {
+    problem: &'a HybridProblem<'a>,
+    guide: &'a Guide<'a>,
+    tree: Tree,
+    closed: StateSet,
+    open: OpenList,
+}
+
+impl<'a> Search<'a> {
+    fn new(problem: &'a HybridProblem<'a>, guide: &'a Guide<'a>) -> Self {
+        Self {
+            problem,
+            guide,
+            tree: Tree::default(),
+            closed: StateSet::new(),
+            open: OpenList::default(),
+        }
+    }
+
+    fn run(mut self, limits: &mut Limits) -> Result<(Pose2, Vec<Arc>), Status> {
+        for start in self.problem.starts() {
+            let root = self.tree.add(Node::root(start));
+            self.open_shots(root);
+            self.open_moves(root);
+        }
+        while let Some(entry) = self.open.pop() {
+            let step = match entry.step {
+                Step::Shot(shot) => return Ok(self.tree.path(entry.parent, Some(shot))),
+                Step::Move(step) => step,
+            };
+            let node = self
+                .problem
+                .arrive(entry.parent, self.tree.node(entry.parent), step);
+            let key = self.problem.key(&node);
+            if !self.closed.vacant(key) {
+                continue;
+            }
+            limits.step()?;
+            if !self
+                .problem
+                .is_free(self.tree.node(entry.parent).pose, node.arc)
+            {
+                continue;
+            }
+            self.closed.insert(key);
+            let id = self.tree.add(node);
+            if self.problem.at_goal(node.pose) {
+                return Ok(self.tree.path(id, None));
+            }
+            if self.guide.wants_shot(node.pose, id) {
+                self.open_shots(id);
+            }
+            self.open_moves(id);
+        }
+        Err(Status::NoPath)
+    }
+
+    /// Puts the motions from a node on the list that may lead somewhere new.
+    fn open_moves(&mut self, parent: u32) {
+        let from = *self.tree.node(parent);
+        for step in 0..self.problem.n_moves(&from) {
+            let node = self.problem.arrive(parent, &from, step);
+            if self.problem.hits(node.pose) || !self.closed.vacant(self.problem.key(&node)) {
+                continue;
+            }
+            if let Some(to_go) = self.guide.cost_to_go(node.pose) {
+                let estimate = node.cost + self.problem.config().weight * to_go;
+                self.open.push(Entry {
+                    parent,
+                    step: Step::Move(step),
+                    estimate,
+                });
+            }
+        }
+    }
+
+    /// Puts the cheapest free curve from a node to the goal on the list.
+    fn open_shots(&mut self, parent: u32) {
+        let node = self.tree.node(parent);
+        if let Some((arcs, cost)) = shots::best(self.problem, node) {
+            let estimate = node.cost + cost;
+            let shot = self.tree.add_shot(arcs);
+            self.open.push(Entry {
+                parent,
+                step: Step::Shot(shot),
+                estimate,
+            });
+        }
+    }
+}

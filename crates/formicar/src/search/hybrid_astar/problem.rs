@@ -1,0 +1,214 @@
+//! One query of hybrid A*: what moves are there, what they cost, which are free.
+
+use super::HybridAstarConfig;
+use super::tree::Node;
+use crate::collision::{Body, Drive, ObstacleMap};
+use crate::geometry::{Arc, Pose2, angle_difference};
+use crate::map::Cell;
+use crate::scenario::{GoalTolerance, MotionMode, Request};
+use crate::vehicle::{Gears, PrimitiveSet, Vehicle, VehicleError};
+
+/// A request on a map for a vehicle, in grid coordinates.
+pub struct HybridProblem<'a> {
+    obstacles: &'a ObstacleMap,
+    body: Body,
+    config: &'a HybridAstarConfig,
+    lattice: PrimitiveSet,
+    state_m: f64,
+    radius_m: f64,
+    axle_inradius_m: f64,
+    request: &'a Request,
+    starts: Vec<Pose2>,
+    goals: Vec<Pose2>,
+}
+
+impl<'a> HybridProblem<'a> {
+    /// Prepares a query: the lattice, and the poses that the heading modes allow.
+    ///
+    /// # Errors
+    /// A vehicle that does not steer.
+    pub fn new(
+        obstacles: &'a ObstacleMap,
+        vehicle: &Vehicle,
+        config: &'a HybridAstarConfig,
+        request: &'a Request,
+    ) -> Result<Self, VehicleError> {
+        let gears = match request.motion {
+            MotionMode::Forward => Gears::Forward,
+            MotionMode::Reverse => Gears::Both,
+        };
+        let resolution_m = obstacles.frame().resolution_m();
+        let radius_m = vehicle.min_turning_radius_m();
+        // A cell of the map may be larger than the turning circle: half of that is the longest.
+        let longest_m = 3.0 * radius_m;
+        let step_m = (config.step_radii * radius_m)
+            .max(1.5 * resolution_m)
+            .min(longest_m);
+        let lattice = PrimitiveSet::new(
+            vehicle,
+            config.angle_quantization_bins as usize,
+            step_m,
+            gears,
+        )?;
+        let to_grid = |poses: Vec<Pose2>| poses.into_iter().map(|p| obstacles.frame().to_grid(p));
+        let mut problem = Self {
+            obstacles,
+            body: Body::new(vehicle),
+            config,
+            lattice,
+            state_m: step_m / 1.5,
+            radius_m,
+            axle_inradius_m: vehicle.footprint().inradius().max(0.0),
+            request,
+            starts: Vec::new(),
+            goals: Vec::new(),
+        };
+        let stands_free = |pose: &Pose2| obstacles.is_free(&problem.body, &Drive::at(*pose));
+        let starts = to_grid(request.start_poses()).filter(stands_free).collect();
+        let goals = to_grid(request.goal_poses()).filter(stands_free).collect();
+        (problem.starts, problem.goals) = (starts, goals);
+        Ok(problem)
+    }
+
+    /// Radii by which to grow obstacles for the goal field: first the body's inner disc, which
+    /// keeps out of gaps that are too narrow, then only what the rear axle can never get nearer
+    /// than, which keeps nothing out wrongly.
+    pub(super) fn inflations_m(&self) -> impl Iterator<Item = f64> {
+        let (wide, sure) = (self.body.inner_radius_m(), self.axle_inradius_m);
+        [wide.max(sure), sure]
+            .into_iter()
+            .take(if wide > sure { 2 } else { 1 })
+    }
+
+    pub(super) fn obstacles(&self) -> &ObstacleMap {
+        self.obstacles
+    }
+
+    pub(super) fn config(&self) -> &HybridAstarConfig {
+        self.config
+    }
+
+    pub(super) fn radius_m(&self) -> f64 {
+        self.radius_m
+    }
+
+    pub(super) fn starts(&self) -> impl Iterator<Item = Pose2> + '_ {
+        self.starts.iter().copied()
+    }
+
+    pub(super) fn goals(&self) -> &[Pose2] {
+        &self.goals
+    }
+
+    pub(super) fn motion(&self) -> MotionMode {
+        self.request.motion
+    }
+
+    /// The map cell under a pose, if it is on the map.
+    pub(super) fn cell(&self, pose: Pose2) -> Option<Cell> {
+        let frame = self.obstacles.frame();
+        let (col, row) = (pose.x / frame.resolution_m(), pose.y / frame.resolution_m());
+        let inside = (0.0..frame.n_cols() as f64).contains(&col)
+            && (0.0..frame.n_rows() as f64).contains(&row);
+        inside.then(|| Cell::new(col as u32, row as u32))
+    }
+
+    /// The lattice state of a node, as one number.
+    pub(super) fn key(&self, node: &Node) -> u64 {
+        let cell = |v: f64| (v / self.state_m).max(0.0) as u64 & 0x00FF_FFFF;
+        cell(node.pose.x) << 40 | cell(node.pose.y) << 16 | node.heading_index as u64
+    }
+
+    /// Number of motions from a node: primitives, or from a start the arcs onto the lattice.
+    pub(super) fn n_moves(&self, node: &Node) -> u16 {
+        match node.parent {
+            Some(_) => self.lattice.primitives().len() as u16,
+            None => self.lattice.alignment_arcs(node.pose.heading).len() as u16,
+        }
+    }
+
+    /// The node that a motion leads to. Headings are put exactly on the lattice, so that rounding
+    /// does not add up.
+    pub(super) fn arrive(&self, parent_id: u32, parent: &Node, step: u16) -> Node {
+        let step = step as usize;
+        let (arc, heading_index, position) = if parent.parent.is_some() {
+            let primitive = &self.lattice.primitives()[step];
+            let moved = self.lattice.displacements(parent.heading_index)[step];
+            let heading_index = self.lattice.heading_after(parent.heading_index, primitive);
+            (
+                primitive.arc(),
+                heading_index,
+                parent.pose.position() + moved,
+            )
+        } else {
+            let alignment = self.lattice.alignment_arcs(parent.pose.heading)[step];
+            (
+                alignment.arc,
+                alignment.heading_index,
+                alignment.arc.end_from(parent.pose).position(),
+            )
+        };
+        let pose = Pose2::at(position, self.lattice.heading_rad(heading_index));
+        let cost = parent.cost + self.cost(parent, arc, pose);
+        Node {
+            pose,
+            arc,
+            heading_index,
+            cost,
+            parent: Some(parent_id),
+        }
+    }
+
+    /// Whether the body's inner disc certainly hits something: a look at one cell.
+    pub(super) fn hits(&self, pose: Pose2) -> bool {
+        self.obstacles.clearance_ceiling_m(&self.body, pose) < 0.0
+    }
+
+    /// Whether a motion touches nothing.
+    pub(super) fn is_free(&self, from: Pose2, arc: Arc) -> bool {
+        let drive = Drive {
+            start: from,
+            curvature_per_m: arc.curvature_per_m,
+            signed_length_m: arc.signed_length_m,
+        };
+        self.obstacles.is_free(&self.body, &drive)
+    }
+
+    /// Cost of a motion after a node, ending at a pose.
+    pub(super) fn cost(&self, parent: &Node, arc: Arc, end: Pose2) -> f64 {
+        let config = self.config;
+        let near = match self.obstacles.clearance_ceiling_m(&self.body, end) {
+            clearance if clearance < config.clearance_wish_m => {
+                1.0 - clearance.max(0.0) / config.clearance_wish_m
+            }
+            _ => 0.0,
+        };
+        let switches = parent.arc.signed_length_m * arc.signed_length_m < 0.0;
+        self.driving_cost(arc) * (1.0 + config.cost_penalty * near)
+            + if switches { config.change_penalty } else { 0.0 }
+    }
+
+    /// Cost of an arc by its length, gear and steering alone.
+    pub(super) fn driving_cost(&self, arc: Arc) -> f64 {
+        let gear = if arc.signed_length_m < 0.0 {
+            self.config.reverse_penalty
+        } else {
+            1.0
+        };
+        let steering = if arc.curvature_per_m == 0.0 {
+            1.0
+        } else {
+            self.config.non_straight_penalty
+        };
+        arc.length_m() * gear * steering
+    }
+
+    /// Whether a pose is a goal pose within the tolerance.
+    pub(super) fn at_goal(&self, pose: Pose2) -> bool {
+        let GoalTolerance { xy_m, yaw_rad } = self.request.goal_tolerance;
+        self.goals.iter().any(|goal| {
+            pose.position().distance(goal.position()) <= xy_m
+                && angle_difference(pose.heading, goal.heading).abs() <= yaw_rad
+        })
+    }
+}
