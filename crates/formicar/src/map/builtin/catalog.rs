@@ -36,7 +36,7 @@ pub(super) static MAPS: [BuiltinMap; 15] = [
                 there. It stays open when obstacles grow by one cell.",
         kind: BuiltinKind::GridProblem,
         vehicle: "lei2020",
-        requests: &[request("across", [0.75, 0.75, NORTH], [17.25, 1.75, EAST])],
+        requests: &[request("across", [0.75, 0.75, NORTH], [17.25, 2.25, EAST])],
         source: Source::Text(include_str!("../../../maps/lei-map3.txt"), 0.5),
     },
     BuiltinMap {
@@ -100,8 +100,8 @@ pub(super) static MAPS: [BuiltinMap; 15] = [
         kind: BuiltinKind::Scene,
         vehicle: "sedan",
         requests: &[
-            request("across", [29.2, 3.0, NORTH], [116.4, 92.0, NORTH]),
-            request("into-alley", [29.2, 3.0, NORTH], [124.2, 88.0, SOUTH]),
+            request("across", [29.2, 3.0, NORTH], [110.0, 86.0, NORTH]),
+            request("into-alley", [29.2, 3.0, NORTH], [46.0, 68.1, WEST]),
             request("into-dead-end", [70.0, 94.0, SOUTH], [93.0, 77.0, SOUTH]),
         ],
         source: Source::Drawing(scenes::neighborhood),
