@@ -2,6 +2,7 @@
 
 mod bit_grid;
 mod cell;
+mod costmap;
 mod distance;
 pub mod format;
 mod frame;

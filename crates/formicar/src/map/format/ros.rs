@@ -1,7 +1,8 @@
 //! Maps of the ROS `map_server`: a YAML description and a PGM or PNG image.
 
+use super::error::excerpt;
 use super::files::{MAX_MAP_BYTES, MAX_TEXT_BYTES, read_bytes, text};
-use super::{FormatError, FormatProblem, GreyImage};
+use super::{FormatError, FormatProblem, GreyImage, Place};
 use crate::geometry::Pose2;
 use crate::map::{FREE, GridFrame, OCCUPIED, OccupancyGrid, UNKNOWN};
 use serde::Deserialize;
@@ -73,7 +74,7 @@ struct Keys {
 }
 
 #[derive(Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "negate must be 0, 1, true or false")]
 enum Negate {
     Flag(bool),
     Number(i64),
@@ -85,8 +86,7 @@ impl RosMapDescription {
     /// # Errors
     /// No YAML, a key that is missing, or a value that cannot be.
     pub fn from_yaml(yaml: &str) -> Result<Self, FormatError> {
-        let keys: Keys =
-            serde_saphyr::from_str(yaml).map_err(|e| FormatProblem::Yaml(e.to_string()))?;
+        let keys: Keys = serde_saphyr::from_str(yaml).map_err(|e| yaml_error(&e, yaml))?;
         let image = needed("image", keys.image)?;
         if image.is_empty() {
             return Err(FormatProblem::bad_value("image", "", "a file name").into());
@@ -231,6 +231,18 @@ impl OccupancyGrid {
     }
 }
 
+/// The error with the line that it is about, if it knows one.
+fn yaml_error(error: &serde_saphyr::Error, yaml: &str) -> FormatError {
+    let message = error.without_snippet().to_string();
+    let line = error.location().map_or(0, |at| at.line() as usize);
+    let source = line.checked_sub(1).and_then(|i| yaml.lines().nth(i));
+    match source {
+        Some(source) => FormatProblem::Yaml(format!("{:?}: {message}", excerpt(source.trim())))
+            .at(Place::Line(line)),
+        None => FormatProblem::Yaml(message).into(),
+    }
+}
+
 fn needed<T>(thing: &'static str, value: Option<T>) -> Result<T, FormatProblem> {
     let hint = "a ROS map needs image, resolution, origin, negate, occupied_thresh and free_thresh";
     value.ok_or(FormatProblem::Missing { thing, hint })
@@ -331,6 +343,11 @@ mod tests {
             broken.contains("wide") && broken.contains("line 2"),
             "{broken}"
         );
+        println!(
+            "{broken}\n{mode}\n{}",
+            message("negate: 0", "negate: maybe")
+        );
+        assert!(message("negate: 0", "negate: maybe").contains("0, 1, true or false"));
         assert!(RosMapDescription::from_yaml("- a\n- b").is_err());
         assert!(RosMapDescription::from_yaml("image: [").is_err());
     }
