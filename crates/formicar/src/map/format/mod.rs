@@ -13,6 +13,7 @@ mod pgm;
 mod png_file;
 mod read;
 mod ros;
+mod ros_grid;
 mod table;
 mod tpcap;
 mod write;
