@@ -26,7 +26,10 @@ fn goal_field(bencher: Bencher, (n_cols, n_rows): (usize, usize)) {
 
 /// Ten queries on the neighborhood inflated by half a car's width, 0.5 m, no corner cutting.
 mod hood_800x500 {
-    use super::*;
+    use super::{
+        AstarWorkspace, Bencher, BitGrid, Cell, DIAGONAL_COST, DiagonalRule, DistanceField,
+        GoalField, Limits, MoveMasks, STEPS, STRAIGHT_COST, astar, black_box, hood, peer_astar,
+    };
 
     const INFLATION_CELLS: f64 = 0.5 / 0.2;
 
@@ -61,14 +64,19 @@ mod hood_800x500 {
         let moves = MoveMasks::new(&blocked, DiagonalRule::NoObstacles);
         let mut workspace = AstarWorkspace::new();
         bencher.bench_local(|| {
-            let mut nobody = ();
-            let mut limits = Limits::new(&mut nobody, None, None);
-            let mut cost = |&[start, goal]: &[Cell; 2]| {
-                let found = astar(&moves, start, goal, &mut workspace, &mut limits);
-                found.map_or(0, |found| found.cost())
-            };
-            queries.iter().map(&mut cost).sum::<u64>()
+            let cost = |&ends: &[Cell; 2]| own_cost(&moves, ends, &mut workspace);
+            queries.iter().map(cost).sum::<u64>()
         });
+    }
+
+    fn own_cost(
+        moves: &MoveMasks,
+        [start, goal]: [Cell; 2],
+        workspace: &mut AstarWorkspace,
+    ) -> u64 {
+        let mut nobody = ();
+        let mut limits = Limits::new(&mut nobody, None, None);
+        astar(moves, start, goal, workspace, &mut limits).map_or(0, |found| found.cost())
     }
 
     /// The same by `pathfinding`: same costs, heuristic, move masks.
@@ -78,6 +86,11 @@ mod hood_800x500 {
             return;
         };
         let moves = MoveMasks::new(&blocked, DiagonalRule::NoObstacles);
+        assert_eq!(queries.len(), 10, "every start and goal is free");
+        for &ends in &queries {
+            let own = own_cost(&moves, ends, &mut AstarWorkspace::new());
+            assert!(own > 0 && own == peer_cost(&moves, ends), "{ends:?}");
+        }
         bencher.bench_local(|| {
             let cost = |&ends: &[Cell; 2]| peer_cost(&moves, ends);
             queries.iter().map(cost).sum::<u64>()

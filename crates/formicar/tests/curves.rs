@@ -195,10 +195,40 @@ fn symmetric_tasks_have_equal_lengths() {
     }
 }
 
+/// A part of a shortest curve is a shortest curve.
+#[test]
+fn shortest_curves_consist_of_shortest_curves() {
+    let mut random = Seed(6).stream([0, 0]);
+    for _ in 0..20_000 {
+        let goal = random_pose(&mut random, 4.0);
+        for (shortest, distance) in [
+            (
+                dubins::shortest as fn(_, _, _) -> _,
+                dubins::distance as fn(_, _, _) -> _,
+            ),
+            (reeds_shepp::shortest, reeds_shepp::distance),
+        ] {
+            let curve: Curve = shortest(Pose2::default(), goal, 1.0).unwrap();
+            let (mut driven, mut pose) = (0.0, Pose2::default());
+            for arc in curve.arcs() {
+                let share = random.unit();
+                let cut = pose.advance(arc.curvature_per_m, share * arc.signed_length_m);
+                let to_cut: f64 = distance(Pose2::default(), cut, 1.0).unwrap();
+                let from_cut: f64 = distance(cut, goal, 1.0).unwrap();
+                let rest = curve.length_m() - driven - share * arc.length_m();
+                assert!((to_cut - driven - share * arc.length_m()).abs() < 1e-8);
+                assert!((from_cut - rest).abs() < 1e-8);
+                driven += arc.length_m();
+                pose = arc.end_from(pose);
+            }
+        }
+    }
+}
+
 #[test]
 fn every_family_is_the_shortest_somewhere() {
     let mut random = Seed(5).stream([0, 0]);
-    let mut n_by_gears_and_arcs = std::collections::BTreeMap::new();
+    let mut n_by_shape = std::collections::BTreeMap::new();
     for _ in 0..100_000 {
         let goal = random_pose(&mut random, 5.0);
         let curve = reeds_shepp::shortest(Pose2::default(), goal, 1.0).unwrap();
@@ -207,12 +237,9 @@ fn every_family_is_the_shortest_somewhere() {
             .iter()
             .map(|a| if a.curvature_per_m == 0.0 { 's' } else { 'c' })
             .collect();
-        *n_by_gears_and_arcs.entry(shape).or_insert(0) += 1;
+        *n_by_shape.entry(shape).or_insert(0) += 1;
     }
     for shape in ["csc", "ccc", "cccc", "ccsc", "cscc", "ccscc"] {
-        assert!(
-            n_by_gears_and_arcs.contains_key(shape),
-            "{shape}: {n_by_gears_and_arcs:?}"
-        );
+        assert!(n_by_shape.contains_key(shape), "{shape}: {n_by_shape:?}");
     }
 }

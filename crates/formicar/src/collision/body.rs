@@ -1,5 +1,6 @@
 //! A vehicle's footprint made ready for distance queries.
 
+use super::convex::point_boundary;
 use crate::geometry::{ConvexPolygon, Point2};
 use crate::vehicle::{Motion, Vehicle};
 
@@ -63,6 +64,16 @@ impl Body {
     /// Radius of the largest disc about the corner mean that stays inside the body, metres.
     pub fn inner_radius_m(&self) -> f64 {
         self.inner_radius
+    }
+
+    /// Width of the ring that the body sweeps when the rear-axle centre drives a circle, metres.
+    pub fn swept_width_m(&self, radius_m: f64) -> f64 {
+        let center = Point2::new(0.0, radius_m);
+        let outer = self
+            .corners
+            .iter()
+            .fold(0.0, |r: f64, p| p.distance(center).max(r));
+        outer - point_boundary(center, &self.corners)
     }
 
     /// The largest distance of the body from the rear-axle centre, metres.

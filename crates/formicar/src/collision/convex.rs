@@ -18,7 +18,7 @@ impl Square {
     pub(super) fn distance(&self, p: Point2) -> f64 {
         let dx = ((p.x - self.center.x).abs() - self.half).max(0.0);
         let dy = ((p.y - self.center.y).abs() - self.half).max(0.0);
-        dx.hypot(dy)
+        (dx * dx + dy * dy).sqrt()
     }
 }
 

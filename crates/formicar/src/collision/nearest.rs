@@ -82,16 +82,24 @@ impl ObstacleMap {
         let half = 0.5 * resolution - body.inset;
         let around = half * std::f64::consts::SQRT_2;
         let (cols, rows) = self.cells_between(low, high, reach);
+        let near = rows.flat_map(|row| {
+            let words = cols.start / 64..cols.end.div_ceil(64);
+            let rim = self.rim().row(row);
+            words.flat_map({
+                let cols = cols.clone();
+                move |w| {
+                    set_bits(rim[w] & word_mask(w, &cols))
+                        .map(move |bit| (w * 64 + bit as usize, row))
+                }
+            })
+        });
         let mut least = reach;
-        for row in rows {
-            for w in cols.start / 64..cols.end.div_ceil(64) {
-                let word = self.rim().row(row)[w] & word_mask(w, &cols);
-                for bit in set_bits(word) {
-                    let col = w * 64 + bit as usize;
-                    let center = Point2::new(col as f64 + 0.5, row as f64 + 0.5) * resolution;
-                    if sweep.at_least(center) - around < least {
-                        least = least.min(sweep.distance(&Square { center, half }));
-                    }
+        for (col, row) in near {
+            let center = Point2::new(col as f64 + 0.5, row as f64 + 0.5) * resolution;
+            if sweep.at_least(center) - around < least {
+                least = least.min(sweep.distance(&Square { center, half }, least));
+                if least == 0.0 {
+                    break;
                 }
             }
         }

@@ -2,10 +2,10 @@
 
 use super::Body;
 use super::arc::Track;
-use super::convex::{Square, edges, polygon_square};
+use super::convex::{Square, edges, penetration, point_boundary, polygon_square};
 use crate::geometry::{Point2, Pose2};
 use std::cell::OnceCell;
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, SQRT_2};
 
 /// A motion along a line or an arc, grid coordinates. A length of 0 is a pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,6 +55,24 @@ impl Drive {
             * (self.signed_length_m.abs() + body.reach_m())
     }
 
+    /// How far body points move from their places halfway, along and across the heading there.
+    fn spread(&self, body: &Body) -> Point2 {
+        if self.is_straight() {
+            let deviation = self.deviation(body);
+            return Point2::new(0.5 * self.signed_length_m.abs() + deviation, deviation);
+        }
+        let half_turn = 0.5 * (self.curvature_per_m * self.signed_length_m).abs();
+        let (sin, cos) = half_turn.sin_cos();
+        let lever = Point2::new(
+            body.middle.x.abs() + body.half.x,
+            (body.middle.y - 1.0 / self.curvature_per_m).abs() + body.half.y,
+        );
+        Point2::new(
+            lever.y * sin + lever.x * (1.0 - cos),
+            lever.x * sin + lever.y * (1.0 - cos),
+        )
+    }
+
     /// How many pieces a body's sweep is best cut into: each turns by less than a quarter circle
     /// and moves by about half of the body.
     pub fn n_pieces(&self, body: &Body) -> usize {
@@ -68,12 +86,12 @@ impl Drive {
 pub(super) struct Sweep<'a> {
     body: &'a Body,
     drive: Drive,
-    /// Middle of the bounding box, and its axes.
+    /// Middle, direction and half size of a box around the region.
     middle: Point2,
     along: Point2,
     half: Point2,
-    /// How far the body may stand out of the box, since it turns.
-    slack: f64,
+    /// How far the centers of the covering discs move from their places halfway.
+    disc_shift: f64,
     shape: OnceCell<Shape>,
 }
 
@@ -91,47 +109,35 @@ struct Turning {
     /// The whole turn, as a rotation.
     rotation: Point2,
     sense: f64,
+    /// The ring about the center in which the body stays.
+    inner_radius: f64,
+    outer_radius: f64,
 }
 
 impl<'a> Sweep<'a> {
     /// The sweep of a drive that needs one piece only.
     pub(super) fn new(body: &'a Body, drive: Drive) -> Self {
-        let Drive {
-            curvature_per_m: curvature,
-            signed_length_m: length,
-            ..
-        } = drive;
         let mid = drive.pose_at(0.5);
         let along = Point2::unit(mid.heading);
         let middle = mid.position() + along * body.middle.x + along.perpendicular() * body.middle.y;
-        let (stretch, slack) = if drive.is_straight() {
-            (0.5 * length.abs(), drive.deviation(body))
-        } else {
-            let axle = Point2::new(0.0, 1.0 / curvature);
-            let lever = body
-                .corners
-                .iter()
-                .fold(0.0, |r: f64, &p| r.max(p.distance(axle)));
-            (0.0, 0.5 * (curvature * length).abs() * lever)
-        };
-        let half = Point2::new(body.half.x + stretch, body.half.y);
+        let spread = drive.spread(body);
         Self {
             body,
             drive,
             middle,
             along,
-            half,
-            slack,
+            half: body.half + spread,
+            disc_shift: spread.norm(),
             shape: OnceCell::new(),
         }
     }
 
-    /// Half the size of the axis-aligned box around the region.
+    /// The axis-aligned box around the region.
     pub(super) fn window(&self) -> (Point2, Point2) {
         let (c, s) = (self.along.x.abs(), self.along.y.abs());
         let reach = Point2::new(
-            c * self.half.x + s * self.half.y + self.slack,
-            s * self.half.x + c * self.half.y + self.slack,
+            c * self.half.x + s * self.half.y,
+            s * self.half.x + c * self.half.y,
         );
         (self.middle - reach, self.middle + reach)
     }
@@ -141,17 +147,16 @@ impl<'a> Sweep<'a> {
         let d = p - self.middle;
         let dx = (d.dot(self.along).abs() - self.half.x).max(0.0);
         let dy = (d.cross(self.along).abs() - self.half.y).max(0.0);
-        dx.hypot(dy) - self.slack
+        (dx * dx + dy * dy).sqrt()
     }
 
     /// Centers and radius of discs that cover the region.
     pub(super) fn discs(&self) -> (impl Iterator<Item = Point2> + '_, f64) {
         let (left, body) = (self.along.perpendicular(), self.body);
-        let stretch = self.half.x - body.half.x;
         let centers = body.discs.iter().map(move |&d| {
             self.middle + self.along * (d.x - body.middle.x) + left * (d.y - body.middle.y)
         });
-        (centers, body.disc_radius + self.slack + stretch)
+        (centers, body.disc_radius + self.disc_shift)
     }
 
     /// The body's corner mean halfway.
@@ -165,13 +170,13 @@ impl<'a> Sweep<'a> {
         self.drive.start.transform(self.body.corners[0])
     }
 
-    /// Exact distance to a square, 0 when touching.
-    pub(super) fn distance(&self, square: &Square) -> f64 {
+    /// Distance to a square, 0 when touching: exact where it is below `limit`.
+    pub(super) fn distance(&self, square: &Square, limit: f64) -> f64 {
         match self.shape() {
             Shape::Convex(corners, deviation) => {
                 (polygon_square(corners, square) - deviation).max(0.0)
             }
-            Shape::Turning(turning) => turning.distance(square),
+            Shape::Turning(turning) => turning.distance(square, limit),
         }
     }
 
@@ -194,32 +199,51 @@ impl<'a> Sweep<'a> {
 
     fn shape(&self) -> &Shape {
         self.shape.get_or_init(|| {
-            let Drive {
-                start,
-                curvature_per_m: curvature,
-                signed_length_m: length,
-            } = self.drive;
             if self.drive.is_straight() {
-                let corners = swept_straight(&self.body.corners, length);
-                return Shape::Convex(placed(&corners, start), self.drive.deviation(self.body));
+                let corners = swept_straight(&self.body.corners, self.drive.signed_length_m);
+                let placed = placed(&corners, self.drive.start);
+                return Shape::Convex(placed, self.drive.deviation(self.body));
             }
-            let turn = curvature * length;
-            Shape::Turning(Turning {
-                first: placed(&self.body.corners, start),
-                last: placed(&self.body.corners, self.drive.pose_at(1.0)),
-                center: start.transform(Point2::new(0.0, 1.0 / curvature)),
-                rotation: Point2::unit(turn),
-                sense: turn.signum(),
-            })
+            Shape::Turning(Turning::new(self.body, &self.drive))
         })
     }
 }
 
 impl Turning {
+    fn new(body: &Body, drive: &Drive) -> Self {
+        let turn = drive.curvature_per_m * drive.signed_length_m;
+        let center = drive
+            .start
+            .transform(Point2::new(0.0, 1.0 / drive.curvature_per_m));
+        let first = placed(&body.corners, drive.start);
+        let around_center = penetration(&first, &Square { center, half: 0.0 }) >= 0.0;
+        Self {
+            inner_radius: if around_center {
+                0.0
+            } else {
+                point_boundary(center, &first)
+            },
+            outer_radius: first.iter().fold(0.0, |r, &p| p.distance(center).max(r)),
+            last: placed(&body.corners, drive.pose_at(1.0)),
+            first,
+            center,
+            rotation: Point2::unit(turn),
+            sense: turn.signum(),
+        }
+    }
+
     /// Exact distance to a square: the ends, corners of the body past edges of the square, and
     /// corners of the square, seen from the body, past edges of the body.
-    fn distance(&self, square: &Square) -> f64 {
+    fn distance(&self, square: &Square, limit: f64) -> f64 {
+        let (away, around) = (square.center.distance(self.center), square.half * SQRT_2);
+        let off_ring = (away - around - self.outer_radius).max(self.inner_radius - away - around);
+        if off_ring >= limit {
+            return limit;
+        }
         let ends = polygon_square(&self.first, square).min(polygon_square(&self.last, square));
+        if ends == 0.0 {
+            return 0.0;
+        }
         let corners = square.corners();
         let outward = self.tracks().map(|track| nearest(&track, &corners));
         let inward = corners

@@ -6,7 +6,7 @@
 //! of the last two is longer than half a circle.
 
 use super::turning_circles::{
-    All, SLACK, Shortest, ShortestLength, TurningCircles, WordSink, inner_tangent,
+    All, SLACK, Shortest, ShortestLength, TurningCircles, WordSink, arcs_around_line, inner_tangent,
 };
 use super::{Curve, Point2, Pose2};
 use std::f64::consts::{PI, TAU};
@@ -91,12 +91,8 @@ impl View {
         if straight + whole_turn >= sink.bound() {
             return;
         }
-        // On one and the same circle the direction of the tangent is rounding.
-        if straight < SLACK {
-            return self.offer([(1.0, whole_turn), (0.0, 0.0), (1.0, 0.0)], sink);
-        }
-        let first = to_full_turn(self.same.angle());
-        let last = to_full_turn(self.turn - first);
+        let (first, last) = arcs_around_line(straight, self.same.angle(), self.turn);
+        let (first, last) = (to_full_turn(first), to_full_turn(last));
         self.offer([(1.0, first), (0.0, straight), (1.0, last)], sink);
     }
 

@@ -34,9 +34,10 @@ impl Point2 {
         self.x * other.y - self.y * other.x
     }
 
-    /// Euclidean length.
+    /// Euclidean length; coordinates stay far below the square root of the largest number, so
+    /// the plain formula serves and is several times faster than `hypot`.
     pub fn norm(self) -> f64 {
-        self.x.hypot(self.y)
+        self.dot(self).sqrt()
     }
 
     /// Euclidean distance to another point.

@@ -58,6 +58,23 @@ pub(super) fn inner_tangent(squared_distance: f64) -> f64 {
     squared.sqrt()
 }
 
+/// The arcs before and after a line between two circles of the same side, as angles in
+/// `[-pi, pi]`, where the line has the given length and direction and the heading turns by `turn`.
+///
+/// Arcs that would shift the goal by rounding alone are 0: on a short line the direction is
+/// ill-conditioned, and an arc that came out negative would else become a full circle.
+pub(super) fn arcs_around_line(straight: f64, direction: f64, turn: f64) -> (f64, f64) {
+    let is_rounding = |arc: f64| straight * arc.abs().min(1.0) < SLACK;
+    let last = to_half_turn(turn - direction);
+    if is_rounding(last) {
+        (turn, 0.0)
+    } else if is_rounding(direction) {
+        (0.0, turn)
+    } else {
+        (direction, last)
+    }
+}
+
 /// An angle in `[-3 pi, 3 pi]` brought to `(-pi, pi]`, where pi may be exceeded by rounding.
 pub(super) fn to_half_turn(angle: f64) -> f64 {
     if angle > PI + SLACK {

@@ -204,7 +204,7 @@ impl OccupancyGrid {
     }
 
     /// Sets every cell that a polygon's inside or boundary touches; corners in world metres, in
-    /// order, convex or not.
+    /// order, convex or not. A corner that is not finite makes the polygon cover the whole map.
     pub fn fill_polygon(&mut self, corners: &[Point2], value: i8) {
         super::raster::touched_cells(&self.frame, corners, |index| self.values[index] = value);
     }

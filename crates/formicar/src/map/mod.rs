@@ -4,6 +4,7 @@ mod bit_grid;
 pub mod builtin;
 mod cell;
 mod components;
+mod costmap;
 mod distance;
 pub mod format;
 mod frame;

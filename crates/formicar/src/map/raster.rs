@@ -109,3 +109,110 @@ fn x_at(low: Point2, high: Point2, y: f64) -> f64 {
     };
     x.clamp(low.x.min(high.x), low.x.max(high.x))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const COLS: usize = 9;
+    const ROWS: usize = 7;
+    /// Corners are drawn on a lattice of this many points per cell.
+    const PER_CELL: i128 = 4;
+
+    fn touched(corners: &[(i64, i64)]) -> Vec<bool> {
+        let frame = GridFrame::new(COLS, ROWS, 1.0, Pose2::default()).unwrap();
+        let scaled = |v: i64| v as f64 / PER_CELL as f64;
+        let corners: Vec<Point2> = corners
+            .iter()
+            .map(|&(x, y)| Point2::new(scaled(x), scaled(y)))
+            .collect();
+        let mut cells = vec![false; frame.n_cells()];
+        touched_cells(&frame, &corners, |i| {
+            assert!(!cells[i], "cell {i} visited twice");
+            cells[i] = true;
+        });
+        cells
+    }
+
+    /// By whole numbers: an edge meets the closed square, or the square's centre is inside.
+    fn brute_force(corners: &[(i64, i64)]) -> Vec<bool> {
+        let corners: Vec<(i128, i128)> = corners
+            .iter()
+            .map(|&(x, y)| (i128::from(x), i128::from(y)))
+            .collect();
+        let n = corners.len();
+        let edges: Vec<_> = (0..n).map(|i| (corners[i], corners[(i + 1) % n])).collect();
+        let cell = |i: usize| {
+            let x = (i % COLS) as i128 * PER_CELL;
+            let y = (i / COLS) as i128 * PER_CELL;
+            edges.iter().any(|&(a, b)| edge_meets_square(a, b, (x, y)))
+                || is_inside(&edges, (x + PER_CELL / 2, y + PER_CELL / 2))
+        };
+        (0..COLS * ROWS).map(cell).collect()
+    }
+
+    type Lattice = (i128, i128);
+
+    fn edge_meets_square(a: Lattice, b: Lattice, low: Lattice) -> bool {
+        let high = (low.0 + PER_CELL, low.1 + PER_CELL);
+        let apart = a.0.max(b.0) < low.0
+            || a.0.min(b.0) > high.0
+            || a.1.max(b.1) < low.1
+            || a.1.min(b.1) > high.1;
+        let side = |x: i128, y: i128| ((b.0 - a.0) * (y - a.1) - (b.1 - a.1) * (x - a.0)).signum();
+        let sides = [
+            side(low.0, low.1),
+            side(high.0, low.1),
+            side(low.0, high.1),
+            side(high.0, high.1),
+        ];
+        !(apart || sides == [1; 4] || sides == [-1; 4])
+    }
+
+    fn is_inside(edges: &[(Lattice, Lattice)], p: Lattice) -> bool {
+        let crossed = edges.iter().filter(|(a, b)| {
+            let (low, high) = if a.1 < b.1 { (a, b) } else { (b, a) };
+            let side = (high.0 - low.0) * (p.1 - low.1) - (high.1 - low.1) * (p.0 - low.0);
+            low.1 <= p.1 && p.1 < high.1 && side > 0
+        });
+        crossed.count() % 2 == 1
+    }
+
+    fn corners(reach: i64, n: std::ops::Range<usize>) -> impl Strategy<Value = Vec<(i64, i64)>> {
+        prop::collection::vec((-reach..reach, -reach..reach), n)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        #[test]
+        fn equals_brute_force(corners in corners(48, 1..9)) {
+            prop_assert_eq!(touched(&corners), brute_force(&corners));
+        }
+
+        #[test]
+        fn far_corners_miss_no_cell(corners in corners(1 << 40, 1..6), near in corners(48, 0..3)) {
+            let all: Vec<_> = corners.into_iter().chain(near).collect();
+            let (cells, truth) = (touched(&all), brute_force(&all));
+            prop_assert!(cells.iter().zip(&truth).all(|(&cell, &true_cell)| cell || !true_cell));
+        }
+
+        #[test]
+        fn any_number_is_survived(corners in prop::collection::vec(any::<(f64, f64)>(), 0..6)) {
+            let frame = GridFrame::new(5, 4, 0.3, Pose2::new(1.0, -2.0, 0.7)).unwrap();
+            let corners: Vec<Point2> = corners.iter().map(|&(x, y)| Point2::new(x, y)).collect();
+            touched_cells(&frame, &corners, |i| assert!(i < 20));
+        }
+    }
+
+    #[test]
+    fn a_polygon_around_the_map_covers_it() {
+        let far = 1_i64 << 50;
+        assert!(
+            touched(&[(-far, -far), (far, -far), (far, far), (-far, far)])
+                .iter()
+                .all(|&c| c)
+        );
+    }
+}

@@ -1,6 +1,7 @@
 //! Nodes and turns of paths that are not yet driven: chains of cells and of way points.
 
 use crate::geometry::Point2;
+use crate::map::Cell;
 use crate::path::{GridPath, WaypointPath};
 use serde::Serialize;
 
@@ -19,7 +20,7 @@ impl NodeMetrics {
 
     /// Of a chain of cells.
     pub fn of_grid(path: &GridPath) -> Self {
-        let center = |cell: &crate::map::Cell| Point2::new(cell.col.into(), cell.row.into());
+        let center = |cell: &Cell| Point2::new(cell.col.into(), cell.row.into());
         Self::of_points(&path.cells.iter().map(center).collect::<Vec<_>>())
     }
 
@@ -46,7 +47,6 @@ impl NodeMetrics {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::map::Cell;
 
     #[test]
     fn a_staircase_turns_at_every_node() {

@@ -117,7 +117,7 @@ pub struct Chart {
     pub height_px: f64,
 }
 
-/// Colors of series in a row, from dark to light.
+/// Colors for the series of one chart, in turn; vary the dash too, for greyscale.
 pub const SERIES_COLORS: [Color; 4] = [
     palette::FORWARD,
     palette::REVERSE,
@@ -172,14 +172,14 @@ fn span(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) = drawable.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
         (low.min(v), high.max(v))
     });
-    match () {
-        () if low > high => (0.0, 1.0),
-        () if high - low <= 1e-9 * high.abs() => {
-            let half = (0.5 * low.abs()).max(0.5);
-            (low - half, high + half)
-        }
-        () => (low, high),
+    if low > high {
+        return (0.0, 1.0);
     }
+    if high - low > 1e-9 * high.abs() {
+        return (low, high);
+    }
+    let half = (0.5 * low.abs()).max(0.5);
+    (low - half, high + half)
 }
 
 #[cfg(test)]

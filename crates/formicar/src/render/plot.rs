@@ -1,6 +1,6 @@
 //! A chart on the page.
 
-use super::chart::{Axis, Chart, Series, Side};
+use super::chart::{Chart, Series, Side};
 use super::legend::{LINE_PX, Legend, Swatch};
 use super::lettering::{Anchor, Lettering};
 use super::palette;
@@ -269,16 +269,6 @@ impl Plot<'_> {
             LIMITS
                 .anchored(Anchor::End)
                 .write_with_halo(svg, base, &limit.label);
-        }
-    }
-}
-
-impl Axis {
-    /// The axis of arc length with, or without, its numbers.
-    pub(super) fn arc_length(length_m: f64, label: &str) -> Self {
-        Self {
-            label: label.to_owned(),
-            range: (length_m.is_finite() && length_m > 0.0).then_some((0.0, length_m)),
         }
     }
 }

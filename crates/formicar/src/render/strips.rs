@@ -78,9 +78,13 @@ fn strip(
         .iter()
         .map(|p| Point2::new(p.s_m, value(p)))
         .collect();
+    let length_m = profile.last().map_or(0.0, |p| p.s_m);
     Chart {
         title: title.to_owned(),
-        x: Axis::arc_length(profile.last().map_or(0.0, |p| p.s_m), ""),
+        x: Axis {
+            label: String::new(),
+            range: (length_m.is_finite() && length_m > 0.0).then_some((0.0, length_m)),
+        },
         y: Axis::named(unit),
         bands: reverse_stretches(profile),
         series: vec![Series::new("", points, palette::FORWARD)],

@@ -29,13 +29,13 @@ pub(super) fn octile(a: Cell, b: Cell) -> u32 {
         .wrapping_add(short.wrapping_mul(DIAGONAL_COST - STRAIGHT_COST))
 }
 
-/// By the step that reached a cell from its best neighbor: the steps worth taking on, where all
+/// By the step that reached a cell from its best neighbor, the steps worth taking on where all
 /// eight are allowed; all of them at [`NO_STEP`].
 ///
-/// Every other neighbor is reached at no more cost past the cell: from the best neighbor itself
-/// or, by a diagonal step first and a straight one then, through a cell that offers that straight
-/// step unless it is a detour (Harabor & Grastien 2011, sec. 3, neighbor pruning). Which of two
-/// equal ways reached a cell first does not matter.
+/// Every other neighbor is reached past the cell at no more cost (Harabor & Grastien 2011): nearly
+/// all by a strictly shorter way. The one tie, straight and then diagonal, is the diagonal step
+/// first and the straight one then; the cell between drops that straight step only where a
+/// strictly shorter way exists, so it does not matter which of two equal ways came first.
 pub(super) const ONWARD_STEPS: [u8; 9] = {
     let mut onward = [0xFF_u8; 9];
     let mut step = 0;

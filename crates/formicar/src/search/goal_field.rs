@@ -22,7 +22,8 @@ impl GoalField {
     /// Measures the way to `goals` from every cell that reaches one.
     ///
     /// Costs are sorted into buckets as wide as a straight step, the shortest there is: no cell of
-    /// a bucket can improve another of the same one (Dinitz 1978). A step of the limits is a cell
+    /// a bucket can improve another of the same one (Dinitz 1978). On open ground a cell hands on
+    /// only along canonical directions. A step of the limits is a cell
     /// expanded. Four bytes per cell.
     ///
     /// # Errors
@@ -38,26 +39,26 @@ impl GoalField {
             masks: moves.as_slice(),
             offsets: moves.offsets(),
         };
-        let [mut wave, mut next, mut after_next] = [(); 3].map(|()| Level::default());
         for &goal in goals {
             check_end(moves, "goal", goal)?;
             spread.costs[moves.index(goal)] = 0;
         }
+        let (mut wave, mut later) = (Level::default(), <[Level; 2]>::default());
         for &goal in goals {
             limits.step()?;
-            next.reserve();
-            after_next.reserve();
-            spread.expand(moves.index(goal), 0, &mut next, &mut after_next);
+            later.iter_mut().for_each(Level::reserve);
+            spread.expand(moves.index(goal), 0, &mut later);
         }
         let mut floor = 0;
-        while !(next.is_empty() && after_next.is_empty()) {
+        while !later.iter().all(Level::is_empty) {
             if floor > MAX_COST - 2 * STRAIGHT_COST {
                 return Err(SearchError::TOO_LONG);
             }
             floor += STRAIGHT_COST;
             wave.clear();
-            (wave, next, after_next) = (next, after_next, wave);
-            spread.advance(&wave, floor, [&mut next, &mut after_next], limits)?;
+            std::mem::swap(&mut wave, &mut later[0]);
+            later.swap(0, 1);
+            spread.advance(&wave, floor, &mut later, limits)?;
         }
         Ok(Self {
             costs: spread.costs,
@@ -183,70 +184,64 @@ impl Spread<'_> {
         &mut self,
         wave: &Level,
         floor: u32,
-        [next, after_next]: [&mut Level; 2],
+        later: &mut [Level; 2],
         limits: &mut Limits,
     ) -> Result<(), Status> {
         for (step, list) in wave.lists.iter().enumerate() {
             for cells in list.cells[..list.n_cells].chunks(CHUNK) {
-                next.reserve();
-                after_next.reserve();
+                later.iter_mut().for_each(Level::reserve);
                 for &cell in cells {
                     limits.step()?;
-                    let index = cell as usize;
-                    if self.costs[index] < floor {
-                        // Reached by a shorter way since it was queued, and expanded then.
-                        continue;
-                    }
-                    if self.masks[index] != u8::MAX {
-                        self.expand(index, floor, next, after_next);
-                    } else if step % 2 == 0 {
-                        self.offer(index, step, self.costs[index] + STRAIGHT_COST, next);
-                    } else {
-                        self.expand_diagonal(index, step, floor, next, after_next);
-                    }
+                    self.expand_onward(cell as usize, step, floor, later);
                 }
             }
         }
         Ok(())
     }
 
-    /// Offers a way through a cell to all its neighbors.
-    fn expand(&mut self, index: usize, floor: u32, next: &mut Level, after_next: &mut Level) {
+    /// Expands a cell that was queued when a step reached it, on open ground only
+    /// [`ONWARD_STEPS`](super::cost::ONWARD_STEPS).
+    #[inline]
+    fn expand_onward(&mut self, index: usize, step: usize, floor: u32, later: &mut [Level; 2]) {
         let cost = self.costs[index];
-        let is_next = cost + DIAGONAL_COST < floor + 2 * STRAIGHT_COST;
+        if cost < floor {
+            // Reached by a shorter way since it was queued, and expanded then.
+            return;
+        }
+        if self.masks[index] != u8::MAX {
+            return self.expand(index, floor, later);
+        }
+        if step.is_multiple_of(2) {
+            return self.offer(index, step, cost + STRAIGHT_COST, &mut later[0]);
+        }
+        for beside in [(step + 1) % 8, step - 1] {
+            self.offer(index, beside, cost + STRAIGHT_COST, &mut later[0]);
+        }
+        let level = &mut later[diagonal_level(cost, floor)];
+        self.offer(index, step, cost + DIAGONAL_COST, level);
+    }
+
+    /// Offers a way through a cell to all its neighbors.
+    fn expand(&mut self, index: usize, floor: u32, later: &mut [Level; 2]) {
+        let cost = self.costs[index];
+        let [next, after_next] = later;
+        let is_next = diagonal_level(cost, floor) == 0;
         let mut steps = self.masks[index];
         while steps != 0 {
             let step = steps.trailing_zeros() as usize;
             steps &= steps - 1;
-            if step % 2 == 0 {
-                self.offer(index, step, cost + STRAIGHT_COST, next);
+            let is_straight = step.is_multiple_of(2);
+            let level = if is_straight || is_next {
+                &mut *next
             } else {
-                let level = if is_next {
-                    &mut *next
-                } else {
-                    &mut *after_next
-                };
-                self.offer(index, step, cost + DIAGONAL_COST, level);
-            }
+                &mut *after_next
+            };
+            self.offer(index, step, cost + STEP_COSTS[step], level);
         }
     }
 
-    fn expand_diagonal(
-        &mut self,
-        index: usize,
-        step: usize,
-        floor: u32,
-        next: &mut Level,
-        after_next: &mut Level,
-    ) {
-        let cost = self.costs[index];
-        self.offer(index, (step + 1) % 8, cost + STRAIGHT_COST, next);
-        self.offer(index, step - 1, cost + STRAIGHT_COST, next);
-        let is_next = cost + DIAGONAL_COST < floor + 2 * STRAIGHT_COST;
-        let level = if is_next { next } else { after_next };
-        self.offer(index, step, cost + DIAGONAL_COST, level);
-    }
-
+    /// Offers a way to the neighbor that a step leads to; without branches, as nobody can foresee
+    /// which offers are better than what is known.
     #[inline]
     fn offer(&mut self, index: usize, step: usize, cost: u32, level: &mut Level) {
         let to = index.wrapping_add_signed(self.offsets[step]);
@@ -254,4 +249,10 @@ impl Spread<'_> {
         self.costs[to] = known.min(cost);
         level.lists[step].push_if(cost < known, to);
     }
+}
+
+/// Whether a diagonal step from a cost of the bucket from `floor` on leads to the next bucket (0)
+/// or the one after (1).
+fn diagonal_level(cost: u32, floor: u32) -> usize {
+    usize::from(cost + DIAGONAL_COST >= floor + 2 * STRAIGHT_COST)
 }

@@ -3,7 +3,9 @@
 //! Each function takes a view and its time flip, which share all lengths.
 
 use super::view::{Link, View};
-use crate::geometry::turning_circles::{SLACK, WordSink, inner_tangent, to_half_turn};
+use crate::geometry::turning_circles::{
+    SLACK, WordSink, arcs_around_line, inner_tangent, to_half_turn,
+};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 const LEFT: f64 = 1.0;
@@ -25,10 +27,7 @@ pub(super) fn lsl(views: &[View; 2], sink: &mut impl WordSink) {
         return;
     }
     for view in views {
-        // On one and the same circle the direction of the tangent is rounding.
-        let one_circle = straight < SLACK;
-        let first = if one_circle { 0.0 } else { view.same.direction };
-        let last = to_half_turn(view.turn - first);
+        let (first, last) = arcs_around_line(straight, view.same.direction, view.turn);
         if is_forward(first) && is_forward(last) {
             view.offer([(LEFT, first), (STRAIGHT, straight), (LEFT, last)], sink);
         }

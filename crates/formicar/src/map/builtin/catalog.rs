@@ -14,7 +14,7 @@ pub(super) static MAPS: [BuiltinMap; 15] = [
         name: "lei-map1",
         about: "21 x 21 cells of 0.5 m, half the width of the lei2020 vehicle, as in Lei & Zheng 2020: \
                 two U-shaped traps between start and goal. The way around stays open when obstacles \
-                grow by one cell.",
+                grow by one cell, and the vehicle can drive it without reverse.",
         kind: BuiltinKind::GridProblem,
         vehicle: "lei2020",
         requests: &[request("across", [0.75, 0.75, EAST], [9.25, 4.25, SOUTH])],
@@ -23,7 +23,8 @@ pub(super) static MAPS: [BuiltinMap; 15] = [
     BuiltinMap {
         name: "lei-map2",
         about: "40 x 40 cells of 0.5 m for the lei2020 vehicle: four U-shapes that open in four \
-                directions, among blocks. The way stays open when obstacles grow by one cell.",
+                directions, among blocks. The way stays open when obstacles grow by one cell, and the \
+                vehicle can drive it without reverse.",
         kind: BuiltinKind::GridProblem,
         vehicle: "lei2020",
         requests: &[request("across", [0.75, 0.75, EAST], [19.25, 16.75, NORTH])],
@@ -32,11 +33,12 @@ pub(super) static MAPS: [BuiltinMap; 15] = [
     BuiltinMap {
         name: "lei-map3",
         about: "40 x 40 cells of 0.5 m for the lei2020 vehicle: long walls force the way up, down \
-                and up again past U-shapes and hooks; at least 82 cells long, 45 if nothing stood \
-                there. It stays open when obstacles grow by one cell.",
+                and up again past U-shapes and hooks; 82 cells long without cutting corners, 34 \
+                if nothing stood there. The way stays open when obstacles grow by one cell, and the \
+                vehicle can drive it without reverse.",
         kind: BuiltinKind::GridProblem,
         vehicle: "lei2020",
-        requests: &[request("across", [0.75, 0.75, NORTH], [17.25, 1.75, EAST])],
+        requests: &[request("across", [0.75, 0.75, NORTH], [17.25, 2.25, EAST])],
         source: Source::Text(include_str!("../../../maps/lei-map3.txt"), 0.5),
     },
     BuiltinMap {
@@ -100,8 +102,8 @@ pub(super) static MAPS: [BuiltinMap; 15] = [
         kind: BuiltinKind::Scene,
         vehicle: "sedan",
         requests: &[
-            request("across", [29.2, 3.0, NORTH], [116.4, 92.0, NORTH]),
-            request("into-alley", [29.2, 3.0, NORTH], [124.2, 88.0, SOUTH]),
+            request("across", [29.2, 3.0, NORTH], [110.0, 86.0, NORTH]),
+            request("into-alley", [29.2, 3.0, NORTH], [46.0, 68.1, WEST]),
             request("into-dead-end", [70.0, 94.0, SOUTH], [93.0, 77.0, SOUTH]),
         ],
         source: Source::Drawing(scenes::neighborhood),
@@ -137,7 +139,7 @@ pub(super) static MAPS: [BuiltinMap; 15] = [
         name: "u-turn-street",
         about: "Two closed streets for sedan (1.8 x 4.7 m, turning radius 4.0 m, whose U-turn in one \
                 go needs 11.0 m between walls): one 7.5 m wide, for a three-point turn, the other 5.6 \
-                m wide beside parked cars, 0.9 m more than the car is long.",
+                m wide beside parked cars, 0.9 m more than the car is long, for a turn in many.",
         kind: BuiltinKind::Narrow,
         vehicle: "sedan",
         requests: &[
@@ -178,7 +180,7 @@ pub(super) static MAPS: [BuiltinMap; 15] = [
         about: "A hall of 2.4 m with gates of poles, one 0.05 m cell each, for warehouse_amr (0.62 x \
                 0.90 m, turning radius 0.77 m): openings of 0.85 m lie left and right in turn, 2.5 m \
                 apart. Poles stand 0.45 m apart: a body that is tested at its corners only drives \
-                through them.",
+                through them. Reverse is not needed.",
         kind: BuiltinKind::Narrow,
         vehicle: "warehouse_amr",
         requests: &[request("slalom", [0.4, 1.3, EAST], [14.8, 1.3, EAST])],

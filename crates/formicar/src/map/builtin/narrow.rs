@@ -1,7 +1,7 @@
 //! The narrow set: tight places of measures that users report, drawn in metres.
 
-use super::super::OccupancyGrid;
-use super::super::sketch::{Rect, Sketch};
+use crate::map::OccupancyGrid;
+use crate::map::sketch::{Rect, Sketch};
 
 /// Side of a cell, metres.
 const RESOLUTION_M: f64 = 0.05;

@@ -1,8 +1,8 @@
 //! Places where robots and cars work, drawn in metres.
 
-use super::super::OccupancyGrid;
-use super::super::generate::{self, NeighborhoodParameters};
-use super::super::sketch::{Rect, Sketch};
+use crate::map::OccupancyGrid;
+use crate::map::generate::{self, NeighborhoodParameters};
+use crate::map::sketch::{Rect, Sketch};
 use crate::numeric::{RandomStream, Seed};
 
 /// A hall of 40 x 25 m: docks at the bottom, staging, racks on the left, packing and an office on

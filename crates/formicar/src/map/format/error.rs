@@ -210,7 +210,7 @@ impl FormatProblem {
 }
 
 /// The beginning of a text, short enough for a message.
-fn excerpt(text: &str) -> String {
+pub(super) fn excerpt(text: &str) -> String {
     const MAX_CHARS: usize = 40;
     let mut short: String = text.chars().take(MAX_CHARS).collect();
     if short.len() < text.len() {

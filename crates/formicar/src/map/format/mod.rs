@@ -7,14 +7,27 @@ mod car;
 mod error;
 mod files;
 mod grey_image;
+mod matrix;
+mod movingai;
 mod pgm;
 mod png_file;
 mod read;
 mod ros;
+mod ros_grid;
+mod table;
+mod tpcap;
+mod write;
 
 pub use car::{CarScenario, parse_car_scenarios, read_car_scenarios};
 pub use error::{FormatError, FormatProblem, Place};
 pub use files::write_atomically;
 pub use grey_image::GreyImage;
+pub use matrix::{parse_matrix, to_csv_matrix, to_text_matrix};
+pub use movingai::{
+    MovingAiScenario, parse_movingai_map, parse_movingai_scenarios, read_movingai_scenarios,
+    to_movingai_map,
+};
 pub use read::{ReadOptions, read_map};
 pub use ros::{RosMapDescription, RosMapMode};
+pub use tpcap::{TPCAP_MARGIN_M, TpcapCase};
+pub use write::{ros_pgm, ros_png, write_map};

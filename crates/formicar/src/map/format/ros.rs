@@ -1,9 +1,9 @@
-//! Maps of the ROS `map_server`: a YAML description and a PGM or PNG image.
+//! The YAML that describes a map of the ROS `map_server`.
 
-use super::files::{MAX_MAP_BYTES, MAX_TEXT_BYTES, read_bytes, text};
-use super::{FormatError, FormatProblem, GreyImage};
+use super::error::excerpt;
+use super::{FormatError, FormatProblem, Place};
 use crate::geometry::Pose2;
-use crate::map::{FREE, GridFrame, OCCUPIED, OccupancyGrid, UNKNOWN};
+use crate::map::GridFrame;
 use serde::Deserialize;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -73,7 +73,7 @@ struct Keys {
 }
 
 #[derive(Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "negate must be 0, 1, true or false")]
 enum Negate {
     Flag(bool),
     Number(i64),
@@ -85,8 +85,7 @@ impl RosMapDescription {
     /// # Errors
     /// No YAML, a key that is missing, or a value that cannot be.
     pub fn from_yaml(yaml: &str) -> Result<Self, FormatError> {
-        let keys: Keys =
-            serde_saphyr::from_str(yaml).map_err(|e| FormatProblem::Yaml(e.to_string()))?;
+        let keys: Keys = serde_saphyr::from_str(yaml).map_err(|e| yaml_error(&e, yaml))?;
         let image = needed("image", keys.image)?;
         if image.is_empty() {
             return Err(FormatProblem::bad_value("image", "", "a file name").into());
@@ -124,7 +123,7 @@ impl RosMapDescription {
         }
     }
 
-    fn check(&self) -> Result<(), FormatError> {
+    pub(super) fn check(&self) -> Result<(), FormatError> {
         let thresholds = [
             ("occupied_thresh", self.occupied_threshold),
             ("free_thresh", self.free_threshold),
@@ -158,76 +157,17 @@ impl RosMapDescription {
         })?;
         Ok(Path::new(&home).join(in_home))
     }
-
-    /// The map that this description makes of an image. The image's last row is row 0.
-    ///
-    /// # Errors
-    /// An impossible resolution or origin, or the mode `raw` on an image that has not 8 bits.
-    pub fn to_grid(&self, image: &GreyImage) -> Result<OccupancyGrid, FormatError> {
-        self.check()?;
-        if self.mode == RosMapMode::Raw && image.max_value != 255 {
-            let expected = "255 in mode raw; hint: save the image with 8 bits";
-            return Err(FormatProblem::bad_value(
-                "the image's maximal grey value",
-                image.max_value,
-                expected,
-            )
-            .into());
-        }
-        let frame = GridFrame::new(image.n_cols, image.n_rows, self.resolution_m, self.origin)?;
-        let table: Vec<i8> = (0..=image.max_value)
-            .map(|grey| self.cell_value(grey, image.max_value))
-            .collect();
-        let mut values = Vec::with_capacity(frame.n_cells());
-        for row in image.values.chunks_exact(image.n_cols).rev() {
-            values.extend(row.iter().map(|&grey| table[usize::from(grey)]));
-        }
-        if let (Some(transparent), false) = (&image.transparent, self.mode == RosMapMode::Raw) {
-            let upwards = transparent.chunks_exact(image.n_cols).rev().flatten();
-            for (value, _) in values.iter_mut().zip(upwards).filter(|(_, t)| **t) {
-                *value = UNKNOWN;
-            }
-        }
-        Ok(OccupancyGrid::new(frame, values)?)
-    }
-
-    fn cell_value(&self, grey: u16, max_value: u16) -> i8 {
-        if self.mode == RosMapMode::Raw {
-            return i8::try_from(grey)
-                .ok()
-                .filter(|&v| v <= OCCUPIED)
-                .unwrap_or(UNKNOWN);
-        }
-        let dark = if self.negate { grey } else { max_value - grey };
-        let p = f64::from(dark) / f64::from(max_value);
-        let (free, occupied) = (self.free_threshold, self.occupied_threshold);
-        if p >= occupied {
-            OCCUPIED
-        } else if p <= free {
-            FREE
-        } else if self.mode == RosMapMode::Scale {
-            (f64::from(OCCUPIED) * (p - free) / (occupied - free)).round() as i8
-        } else {
-            UNKNOWN
-        }
-    }
 }
 
-impl OccupancyGrid {
-    /// Reads a ROS map from its YAML description, and the image that it names.
-    ///
-    /// # Errors
-    /// Either file cannot be read or is wrong; the error names it.
-    pub fn read_ros_yaml(path: impl AsRef<Path>) -> Result<Self, FormatError> {
-        let path = path.as_ref();
-        let bytes = read_bytes(path, MAX_TEXT_BYTES)?;
-        let description = text(&bytes, "the YAML description of a ROS map")
-            .and_then(RosMapDescription::from_yaml)
-            .map_err(|e| e.in_file(path))?;
-        let image_path = description.image_path(path).map_err(|e| e.in_file(path))?;
-        GreyImage::from_bytes(&read_bytes(&image_path, MAX_MAP_BYTES)?)
-            .and_then(|image| description.to_grid(&image))
-            .map_err(|e| e.in_file(&image_path))
+/// The error with the line that it is about, if it knows one.
+fn yaml_error(error: &serde_saphyr::Error, yaml: &str) -> FormatError {
+    let message = error.without_snippet().to_string();
+    let line = error.location().map_or(0, |at| at.line() as usize);
+    let source = line.checked_sub(1).and_then(|i| yaml.lines().nth(i));
+    match source {
+        Some(source) => FormatProblem::Yaml(format!("{:?}: {message}", excerpt(source.trim())))
+            .at(Place::Line(line)),
+        None => FormatProblem::Yaml(message).into(),
     }
 }
 
@@ -261,16 +201,6 @@ mod tests {
 
     fn message(from: &str, to: &str) -> String {
         parse(from, to).unwrap_err().to_string()
-    }
-
-    fn column(values: &[u16]) -> GreyImage {
-        GreyImage {
-            n_cols: 1,
-            n_rows: values.len(),
-            max_value: 255,
-            values: values.to_vec(),
-            transparent: None,
-        }
     }
 
     #[test]
@@ -331,71 +261,8 @@ mod tests {
             broken.contains("wide") && broken.contains("line 2"),
             "{broken}"
         );
+        assert!(message("negate: 0", "negate: maybe").contains("0, 1, true or false"));
         assert!(RosMapDescription::from_yaml("- a\n- b").is_err());
         assert!(RosMapDescription::from_yaml("image: [").is_err());
-    }
-
-    #[test]
-    fn trinary_includes_both_thresholds_and_counts_rows_from_below() {
-        let mut description = RosMapDescription::of_bare_image(1.0);
-        let image = column(&[0, 254, 205, 206]);
-        assert_eq!(
-            description.to_grid(&image).unwrap().values(),
-            [0, -1, 0, 100]
-        );
-        (description.occupied_threshold, description.free_threshold) = (0.6, 0.2);
-        let image = column(&[102, 103, 203, 204]);
-        assert_eq!(
-            description.to_grid(&image).unwrap().values(),
-            [0, -1, -1, 100]
-        );
-        description.negate = true;
-        let image = column(&[255, 153, 152, 51]);
-        assert_eq!(
-            description.to_grid(&image).unwrap().values(),
-            [0, -1, 100, 100]
-        );
-    }
-
-    #[test]
-    fn scale_grades_between_the_thresholds() {
-        let mut description = RosMapDescription::of_bare_image(1.0);
-        description.mode = RosMapMode::Scale;
-        (description.occupied_threshold, description.free_threshold) = (0.8, 0.2);
-        let mut image = column(&[51, 102, 127, 204]);
-        assert_eq!(
-            description.to_grid(&image).unwrap().values(),
-            [0, 50, 67, 100]
-        );
-        image.transparent = Some(vec![true, false, false, true]);
-        assert_eq!(
-            description.to_grid(&image).unwrap().values(),
-            [-1, 50, 67, -1]
-        );
-    }
-
-    #[test]
-    fn raw_keeps_values() {
-        let mut description = RosMapDescription::of_bare_image(1.0);
-        description.mode = RosMapMode::Raw;
-        let mut image = column(&[0, 42, 100, 101, 255]);
-        let grid = description.to_grid(&image).unwrap();
-        assert_eq!(grid.values(), [-1, -1, 100, 42, 0]);
-        image.max_value = 1000;
-        let error = description.to_grid(&image).unwrap_err().to_string();
-        assert!(
-            error.contains("1000") && error.contains("mode raw"),
-            "{error}"
-        );
-    }
-
-    #[test]
-    fn other_maximal_values_scale() {
-        let mut image = column(&[0, 3, 7]);
-        image.max_value = 7;
-        let grid = RosMapDescription::of_bare_image(1.0)
-            .to_grid(&image)
-            .unwrap();
-        assert_eq!(grid.values(), [0, -1, 100]);
     }
 }

@@ -1,9 +1,9 @@
 //! Places where a vehicle can stand, far apart.
 
-use super::super::{BitGrid, Cell, GridFrame, OccupancyGrid};
 use super::GenerateError;
 use super::main_component::main_component;
 use crate::geometry::{ConvexPolygon, Point2, Pose2};
+use crate::map::{BitGrid, Cell, GridFrame, OccupancyGrid};
 use crate::numeric::{RandomStream, Seed};
 use crate::vehicle::Vehicle;
 use std::f64::consts::PI;

@@ -1,6 +1,6 @@
 //! The largest free area of a map.
 
-use super::super::{BitGrid, Cell, FREE, OCCUPIED, OccupancyGrid};
+use crate::map::{BitGrid, Cell, FREE, OCCUPIED, OccupancyGrid};
 
 /// The cells of the largest 4-connected area that is not lethal; of equal areas the one whose
 /// first cell comes first.

@@ -1,9 +1,10 @@
 //! Rectangles strewn at random: stress tests by density.
 
-use super::super::sketch::frame_at_origin;
-use super::super::{FREE, OCCUPIED, OccupancyGrid};
 use super::{GenerateError, ScatterParameters};
-use crate::numeric::Seed;
+use crate::map::sketch::frame_at_origin;
+use crate::map::{FREE, OCCUPIED, OccupancyGrid};
+use crate::numeric::{RandomStream, Seed};
+use std::ops::Range;
 
 /// A field of random rectangles that take the wanted share of the cells.
 ///
@@ -25,17 +26,21 @@ pub fn scattered_obstacles(
         let mut side = || 1 + random.below(parameters.max_obstacle_cells);
         let (width, height) = (side(), side());
         // Obstacles may stick out on every side, so that borders are as dense as the middle.
-        let first_col = (random.below(n_cols + width - 1) + 1).saturating_sub(width);
-        let first_row = (random.below(n_rows + height - 1) + 1).saturating_sub(height);
-        for row in first_row..(first_row + height).min(n_rows) {
-            let end = (first_col + width).min(n_cols);
-            let cells = &mut values[row * n_cols..][first_col..end];
+        let cols = span(&mut random, width, n_cols);
+        for row in span(&mut random, height, n_rows) {
+            let cells = &mut values[row * n_cols..][cols.clone()];
             let n_new = cells.iter().filter(|&&v| v == FREE).count();
             cells.fill(OCCUPIED);
             n_missing = n_missing.saturating_sub(n_new);
         }
     }
     Ok(OccupancyGrid::new(frame, values)?)
+}
+
+/// Random places in `0..n` that a stretch of `length` covers, at least one.
+fn span(random: &mut RandomStream, length: usize, n: usize) -> Range<usize> {
+    let end = 1 + random.below(n + length - 1);
+    end.saturating_sub(length)..end.min(n)
 }
 
 #[cfg(test)]

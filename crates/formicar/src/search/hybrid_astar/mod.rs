@@ -35,18 +35,24 @@ pub fn hybrid_astar(
     problem: &HybridProblem,
     limits: &mut Limits,
 ) -> Result<(Pose2, Vec<Arc>), Status> {
-    let mut ended = Status::NoPath;
-    for inflation_m in problem.inflations_m() {
+    let inflations_m = problem.inflations_m();
+    for (stage, &inflation_m) in inflations_m.iter().enumerate() {
+        let last = stage + 1 == inflations_m.len();
+        // A guide that leads astray must not cost all the time there is.
+        let patience = if last { u64::MAX } else { PATIENCE_STEPS };
         let Some(guide) = Guide::new(problem, inflation_m, limits)? else {
             continue;
         };
-        match Search::new(problem, &guide).run(limits) {
-            Err(Status::NoPath) => ended = Status::NoPath,
+        match Search::new(problem, &guide).run(patience, limits) {
+            Err(Status::NoPath) => {}
             other => return other,
         }
     }
-    Err(ended)
+    Err(Status::NoPath)
 }
+
+/// Steps after which the next guide is tried.
+const PATIENCE_STEPS: u64 = 50_000;
 
 /// The state of one search.
 struct Search<'a> {
@@ -68,7 +74,12 @@ impl<'a> Search<'a> {
         }
     }
 
-    fn run(mut self, limits: &mut Limits) -> Result<(Pose2, Vec<Arc>), Status> {
+    fn run(
+        mut self,
+        patience_steps: u64,
+        limits: &mut Limits,
+    ) -> Result<(Pose2, Vec<Arc>), Status> {
+        let before = limits.n_steps();
         for start in self.problem.starts() {
             let root = self.tree.add(Node::root(start));
             self.open_shots(root);
@@ -85,6 +96,9 @@ impl<'a> Search<'a> {
             let key = self.problem.key(&node);
             if !self.closed.vacant(key) {
                 continue;
+            }
+            if limits.n_steps() - before == patience_steps {
+                break;
             }
             limits.step()?;
             if !self

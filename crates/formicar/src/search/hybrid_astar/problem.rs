@@ -70,14 +70,15 @@ impl<'a> HybridProblem<'a> {
         Ok(problem)
     }
 
-    /// Radii by which to grow obstacles for the goal field: first the body's inner disc, which
-    /// keeps out of gaps that are too narrow, then only what the rear axle can never get nearer
-    /// than, which keeps nothing out wrongly.
-    pub(super) fn inflations_m(&self) -> impl Iterator<Item = f64> {
+    /// Radii by which to grow obstacles for the goal field, most first: halfway to what the body
+    /// sweeps in its tightest turn, which leads through gaps that can mostly be driven; the
+    /// body's inner disc, which leads through gaps that are wide enough to go straight; and what
+    /// the rear axle can never get nearer than, which keeps nothing out wrongly.
+    pub(super) fn inflations_m(&self) -> [f64; 3] {
         let (wide, sure) = (self.body.inner_radius_m(), self.axle_inradius_m);
-        [wide.max(sure), sure]
-            .into_iter()
-            .take(if wide > sure { 2 } else { 1 })
+        let turning = 0.5 * self.body.swept_width_m(self.radius_m);
+        let wide = wide.max(sure);
+        [0.5 * (wide + turning.max(wide)), wide, sure]
     }
 
     pub(super) fn obstacles(&self) -> &ObstacleMap {

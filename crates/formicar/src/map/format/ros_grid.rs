@@ -1,0 +1,158 @@
+//! The grid that a ROS map's description makes of its image.
+
+use super::files::{MAX_MAP_BYTES, MAX_TEXT_BYTES, read_bytes, text};
+use super::{FormatError, FormatProblem, GreyImage, RosMapDescription, RosMapMode};
+use crate::map::{FREE, GridFrame, OCCUPIED, OccupancyGrid, UNKNOWN};
+use std::path::Path;
+
+impl RosMapDescription {
+    /// The map that this description makes of an image. The image's last row is row 0.
+    ///
+    /// # Errors
+    /// An impossible resolution or origin, or the mode `raw` on an image that has not 8 bits.
+    pub fn to_grid(&self, image: &GreyImage) -> Result<OccupancyGrid, FormatError> {
+        self.check()?;
+        if self.mode == RosMapMode::Raw && image.max_value != 255 {
+            let expected = "255 in mode raw; hint: save the image with 8 bits";
+            return Err(FormatProblem::bad_value(
+                "the image's maximal grey value",
+                image.max_value,
+                expected,
+            )
+            .into());
+        }
+        let frame = GridFrame::new(image.n_cols, image.n_rows, self.resolution_m, self.origin)?;
+        let table: Vec<i8> = (0..=image.max_value)
+            .map(|grey| self.cell_value(grey, image.max_value))
+            .collect();
+        let mut values = Vec::with_capacity(frame.n_cells());
+        for row in image.values.chunks_exact(image.n_cols).rev() {
+            values.extend(row.iter().map(|&grey| table[usize::from(grey)]));
+        }
+        if let (Some(transparent), false) = (&image.transparent, self.mode == RosMapMode::Raw) {
+            let upwards = transparent.chunks_exact(image.n_cols).rev().flatten();
+            for (value, _) in values.iter_mut().zip(upwards).filter(|(_, t)| **t) {
+                *value = UNKNOWN;
+            }
+        }
+        Ok(OccupancyGrid::new(frame, values)?)
+    }
+
+    fn cell_value(&self, grey: u16, max_value: u16) -> i8 {
+        if self.mode == RosMapMode::Raw {
+            return i8::try_from(grey)
+                .ok()
+                .filter(|&v| v <= OCCUPIED)
+                .unwrap_or(UNKNOWN);
+        }
+        let dark = if self.negate { grey } else { max_value - grey };
+        let p = f64::from(dark) / f64::from(max_value);
+        let (free, occupied) = (self.free_threshold, self.occupied_threshold);
+        if p >= occupied {
+            OCCUPIED
+        } else if p <= free {
+            FREE
+        } else if self.mode == RosMapMode::Scale {
+            (f64::from(OCCUPIED) * (p - free) / (occupied - free)).round() as i8
+        } else {
+            UNKNOWN
+        }
+    }
+}
+
+impl OccupancyGrid {
+    /// Reads a ROS map from its YAML description, and the image that it names.
+    ///
+    /// # Errors
+    /// Either file cannot be read or is wrong; the error names it.
+    pub fn read_ros_yaml(path: impl AsRef<Path>) -> Result<Self, FormatError> {
+        let path = path.as_ref();
+        let bytes = read_bytes(path, MAX_TEXT_BYTES)?;
+        let description = text(&bytes, "the YAML description of a ROS map")
+            .and_then(RosMapDescription::from_yaml)
+            .map_err(|e| e.in_file(path))?;
+        let image_path = description.image_path(path).map_err(|e| e.in_file(path))?;
+        GreyImage::from_bytes(&read_bytes(&image_path, MAX_MAP_BYTES)?)
+            .and_then(|image| description.to_grid(&image))
+            .map_err(|e| e.in_file(&image_path))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn column(values: &[u16]) -> GreyImage {
+        GreyImage {
+            n_cols: 1,
+            n_rows: values.len(),
+            max_value: 255,
+            values: values.to_vec(),
+            transparent: None,
+        }
+    }
+
+    #[test]
+    fn trinary_includes_both_thresholds_and_counts_rows_from_below() {
+        let mut description = RosMapDescription::of_bare_image(1.0);
+        let image = column(&[0, 254, 205, 206]);
+        assert_eq!(
+            description.to_grid(&image).unwrap().values(),
+            [0, -1, 0, 100]
+        );
+        (description.occupied_threshold, description.free_threshold) = (0.6, 0.2);
+        let image = column(&[102, 103, 203, 204]);
+        assert_eq!(
+            description.to_grid(&image).unwrap().values(),
+            [0, -1, -1, 100]
+        );
+        description.negate = true;
+        let image = column(&[255, 153, 152, 51]);
+        assert_eq!(
+            description.to_grid(&image).unwrap().values(),
+            [0, -1, 100, 100]
+        );
+    }
+
+    #[test]
+    fn scale_grades_between_the_thresholds() {
+        let mut description = RosMapDescription::of_bare_image(1.0);
+        description.mode = RosMapMode::Scale;
+        (description.occupied_threshold, description.free_threshold) = (0.8, 0.2);
+        let mut image = column(&[51, 102, 127, 204]);
+        assert_eq!(
+            description.to_grid(&image).unwrap().values(),
+            [0, 50, 67, 100]
+        );
+        image.transparent = Some(vec![true, false, false, true]);
+        assert_eq!(
+            description.to_grid(&image).unwrap().values(),
+            [-1, 50, 67, -1]
+        );
+    }
+
+    #[test]
+    fn raw_keeps_values() {
+        let mut description = RosMapDescription::of_bare_image(1.0);
+        description.mode = RosMapMode::Raw;
+        let mut image = column(&[0, 42, 100, 101, 255]);
+        let grid = description.to_grid(&image).unwrap();
+        assert_eq!(grid.values(), [-1, -1, 100, 42, 0]);
+        image.max_value = 1000;
+        let error = description.to_grid(&image).unwrap_err().to_string();
+        assert!(
+            error.contains("1000") && error.contains("mode raw"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn other_maximal_values_scale() {
+        let mut image = column(&[0, 3, 7]);
+        image.max_value = 7;
+        let grid = RosMapDescription::of_bare_image(1.0)
+            .to_grid(&image)
+            .unwrap();
+        assert_eq!(grid.values(), [0, -1, 100]);
+    }
+}
