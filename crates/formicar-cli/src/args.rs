@@ -121,7 +121,7 @@ pub(crate) struct PlanArgs {
     #[arg(long, value_name = "M,RAD", value_parser = values::goal_tolerance, allow_hyphen_values = true)]
     pub(crate) goal_tolerance: Option<GoalTolerance>,
 
-    /// Planner (see `list planners`); `hybrid-astar` by default.
+    /// Planner (see `list planners`); `hybrid-astar` by default, `astar` for a point.
     #[arg(long, value_name = "NAME")]
     pub(crate) planner: Option<PlannerName>,
 

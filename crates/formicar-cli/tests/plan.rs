@@ -221,6 +221,17 @@ fn built_in_maps_bring_start_goal_and_vehicle() {
 }
 
 #[test]
+fn grid_problems_are_planned_for_points() {
+    let answer = Room::new()
+        .run(&["plan", "--map", "aco20", "--json"])
+        .json();
+    assert_eq!(
+        (&answer["status"], &answer["planner"]),
+        (&json!("found"), &json!("astar"))
+    );
+}
+
+#[test]
 fn vehicles_come_from_toml_and_json() {
     let room = Room::new();
     let toml = "wheelbase_m = 0.5\nwidth_m = 0.5\nfront_overhang_m = 0.1\nrear_overhang_m = 0.1\n\

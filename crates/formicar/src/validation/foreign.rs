@@ -14,7 +14,7 @@
 //! a jump of the heading between two segments.
 //!
 //! *Points without headings.* A turn of more than 90 degrees between two steps is a cusp: there
-//! the gear changes; the first gear is forward. Between cusps the direction of motion at a point
+//! the gear changes; the first gear is the caller's to say. Between cusps the direction of motion at a point
 //! is the tangent of the circle through three consecutive points. Of the circles in which the
 //! point comes last, in the middle or first, the one whose curvature agrees best with its
 //! neighbours counts: beside a joint of two arcs this picks the circle that lies on one arc. Where
@@ -41,8 +41,12 @@ pub fn path_through_poses(poses: &[Pose2], rounding_m: f64) -> Option<CurvePath>
     path_through(poses, &gears, rounding_m)
 }
 
-/// The arcs and gears through points without headings, the first gear forward.
-pub fn path_through_points(points: &[Point2], rounding_m: f64) -> Option<CurvePath> {
+/// The arcs and gears through points without headings, which do not tell the first gear.
+pub fn path_through_points(
+    points: &[Point2],
+    first_gear: Direction,
+    rounding_m: f64,
+) -> Option<CurvePath> {
     let mut points = points.to_vec();
     points.dedup();
     let n_steps = points.len().checked_sub(1)?;
@@ -51,7 +55,7 @@ pub fn path_through_points(points: &[Point2], rounding_m: f64) -> Option<CurvePa
     }
     let mut headings = vec![0.0; points.len()];
     let mut gears = vec![Direction::Forward; n_steps];
-    let mut direction = Direction::Forward;
+    let mut direction = first_gear;
     let mut first = 0;
     while first < n_steps {
         let last = run_end(&points, first);
@@ -123,11 +127,18 @@ fn reach(poses: &[Pose2], gears: &[Direction], rounding_m: f64) -> (usize, Vec<C
         return (1, to(1));
     }
     let n_same_gear = gears.iter().take_while(|&&gear| gear == gears[0]).count();
-    let longest = (2..=n_same_gear.min(MAX_REACH)).rev().find_map(|i| {
+    let passing = |i: usize| {
         let curve = to(i);
         passes(&curve, &poses[1..i], rounding_m).then_some((i, curve))
-    });
-    longest.unwrap_or_else(|| (1, to(1)))
+    };
+    let longest = (2..=n_same_gear.min(MAX_REACH)).rev().find_map(passing);
+    let (i, curve) = longest.unwrap_or_else(|| (1, to(1)));
+    // A short rest before a cusp would be all rounding: the last two curves share alike.
+    let half = n_same_gear.div_ceil(2);
+    if half < i && i < n_same_gear {
+        return passing(half).unwrap_or((i, curve));
+    }
+    (i, curve)
 }
 
 /// The segments of a step: a biarc, one arc where both halves are the same, or a line that
@@ -346,7 +357,7 @@ mod tests {
 
     #[test]
     fn recovers_arcs_and_gears_from_points() {
-        let found = path_through_points(&points(&known()), 0.0).unwrap();
+        let found = path_through_points(&points(&known()), Direction::Forward, 0.0).unwrap();
         assert_joined(&found);
         assert_same(&found, &known(), 1e-6);
     }
@@ -376,7 +387,7 @@ mod tests {
             largest_curvature(&found)
         );
         let points: Vec<_> = poses.iter().map(|p| p.position()).collect();
-        let found = path_through_points(&points, 0.0).unwrap();
+        let found = path_through_points(&points, Direction::Forward, 0.0).unwrap();
         assert_joined(&found);
         assert!(
             largest_curvature(&found) <= 0.8 * 1.001,
@@ -423,11 +434,13 @@ mod tests {
 
     #[test]
     fn few_samples_are_no_trouble() {
-        assert_eq!(path_through_points(&[], 0.0), None);
+        assert_eq!(path_through_points(&[], Direction::Forward, 0.0), None);
         assert_eq!(path_through_poses(&[], 0.0), None);
         let p = Point2::new(1.0, 2.0);
         assert_eq!(
-            path_through_points(&[p, p, p], 0.0).unwrap().length_m(),
+            path_through_points(&[p, p, p], Direction::Forward, 0.0)
+                .unwrap()
+                .length_m(),
             0.0
         );
         assert_eq!(
@@ -437,10 +450,11 @@ mod tests {
                 .heading,
             1.0
         );
-        let line = path_through_points(&[p, Point2::new(2.0, 2.0)], 0.0).unwrap();
+        let line =
+            path_through_points(&[p, Point2::new(2.0, 2.0)], Direction::Forward, 0.0).unwrap();
         assert!((line.length_m() - 1.0).abs() < 1e-12);
         let there_and_back = [p, Point2::new(2.0, 2.0), p];
-        let path = path_through_points(&there_and_back, 0.0).unwrap();
+        let path = path_through_points(&there_and_back, Direction::Forward, 0.0).unwrap();
         assert_eq!(
             path.segments().last().unwrap().direction,
             Direction::Reverse
@@ -461,7 +475,7 @@ mod tests {
                 path.push(0.8 * f64::from(bend - 1), length_m, gear);
             }
             let from_poses = path_through_poses(&poses(&path), 0.0).unwrap();
-            let from_points = path_through_points(&points(&path), 0.0).unwrap();
+            let from_points = path_through_points(&points(&path), Direction::Forward, 0.0).unwrap();
             for found in [from_poses, from_points] {
                 assert_joined(&found);
                 prop_assert!(largest_curvature(&found) <= 0.8 * 1.001);
