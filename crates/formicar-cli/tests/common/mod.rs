@@ -52,6 +52,8 @@ pub fn formicar_in(folder: &Path, args: &[&str], input: &str) -> Run {
     let mut child = Command::new(env!("CARGO_BIN_EXE_formicar"))
         .args(args)
         .current_dir(folder)
+        // The help is as wide as the terminal says.
+        .env_remove("COLUMNS")
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
