@@ -1,6 +1,7 @@
 //! Flags of `bench`.
 #![allow(clippy::doc_markdown, reason = "clap prints these words as they stand")]
 
+use super::machine;
 use crate::values;
 use clap::{Args, ValueHint};
 use formicar::planner::PlannerName;
@@ -77,6 +78,7 @@ impl BenchArgs {
         json!({
             "schema": "formicar/bench/1",
             "version": env!("CARGO_PKG_VERSION"),
+            "processor": machine::processor(),
             "motion": self.motion.unwrap_or_default(),
             "budget_steps": self.budget,
             "deadline_ms": self.deadline,

@@ -91,7 +91,6 @@ fn open<'a>(args: &BenchArgs, jobs: &'a [Job]) -> Result<(Results, Vec<&'a Job>)
         .map(Job::key)
         .collect();
     let results = Results::open(&args.out, &args.conditions(), &incomplete)?;
-    // What was measured before, was measured here as well: another machine needs another folder.
     let path = args.out.join("MACHINE.md");
     write_atomically(&path, machine::description().as_bytes())
         .with_context(|| format!("{} cannot be written", path.display()))?;

@@ -26,10 +26,6 @@ struct Clearance {
     limit_m: Option<f64>,
     /// Where the way is narrowest.
     narrowest: Option<[f64; 2]>,
-    /// How far along the way that is, metres.
-    narrowest_s_m: Option<f64>,
-    /// Corners of the way, from start to goal.
-    way: Vec<[f64; 2]>,
 }
 
 /// Carries out `map clearance`.
@@ -107,16 +103,14 @@ fn measure(obstacles: &ObstacleMap, [start, goal]: [Point2; 2], ends: [Cell; 2])
         width_m: Some(2.0 * report.min_clearance_m),
         limit_m: limit_m(&field, passage.distance_cells, frame.resolution_m()),
         narrowest: Some([report.tightest.x, report.tightest.y]),
-        narrowest_s_m: Some(report.tightest_s_m),
-        way: way.iter().map(|p| [p.x, p.y]).collect(),
     }
 }
 
-/// No disc is wider on any way: wherever its center is, the center of that cell is half a diagonal
-/// away at most, and the center of an obstacle cell at least half a side behind its own side.
+/// No wider disc passes on any way: the center of the cell in which its own center lies is at most
+/// half a diagonal away, and that of an obstacle cell lies half a side behind the obstacle's side.
 fn limit_m(field: &DistanceField, distance_cells: f64, resolution_m: f64) -> Option<f64> {
     let is_known = distance_cells < f64::from(field.truncation_cells());
-    is_known.then(|| 2.0 * (distance_cells + FRAC_1_SQRT_2 - 0.5) * resolution_m)
+    is_known.then_some(2.0 * (distance_cells + FRAC_1_SQRT_2 - 0.5) * resolution_m)
 }
 
 /// The cells with one more, lethal, on every side.
@@ -147,8 +141,6 @@ impl Clearance {
             width_m: None,
             limit_m: None,
             narrowest: None,
-            narrowest_s_m: None,
-            way: Vec::new(),
         }
     }
 }
