@@ -11,7 +11,7 @@ mod guide;
 mod open_list;
 mod problem;
 mod shots;
-mod state_set;
+mod state_costs;
 mod tree;
 
 pub use config::HybridAstarConfig;
@@ -21,7 +21,7 @@ use crate::geometry::{Arc, Pose2};
 use crate::progress::{Limits, Status};
 use guide::Guide;
 use open_list::{Entry, OpenList, Step};
-use state_set::StateSet;
+use state_costs::StateCosts;
 use tree::{Node, Tree};
 
 /// Searches a drivable chain of arcs from start to goal, in grid coordinates.
@@ -35,11 +35,24 @@ pub fn hybrid_astar(
     problem: &HybridProblem,
     limits: &mut Limits,
 ) -> Result<(Pose2, Vec<Arc>), Status> {
-    let inflations_m = problem.inflations_m();
-    for (stage, &inflation_m) in inflations_m.iter().enumerate() {
-        let last = stage + 1 == inflations_m.len();
+    let fine = problem.refined();
+    let [turning, wide, sure] = problem.inflations_m();
+    let stages = [
+        (problem, turning),
+        (problem, wide),
+        (problem, sure),
+        (&fine, wide),
+        (&fine, sure),
+    ];
+    let most_steps = problem.config().max_iterations;
+    for (stage, (problem, inflation_m)) in stages.into_iter().enumerate() {
+        let left = most_steps.saturating_sub(limits.n_steps());
         // A guide that leads astray must not cost all the time there is.
-        let patience = if last { u64::MAX } else { PATIENCE_STEPS };
+        let patience = if stage + 1 == stages.len() {
+            left
+        } else {
+            left.min(PATIENCE_STEPS)
+        };
         let Some(guide) = Guide::new(problem, inflation_m, limits)? else {
             continue;
         };
@@ -48,10 +61,14 @@ pub fn hybrid_astar(
             other => return other,
         }
     }
-    Err(Status::NoPath)
+    if limits.n_steps() >= most_steps {
+        Err(Status::BudgetExhausted)
+    } else {
+        Err(Status::NoPath)
+    }
 }
 
-/// Steps after which the next guide is tried.
+/// Steps after which the next guide, or the finer lattice, is tried.
 const PATIENCE_STEPS: u64 = 50_000;
 
 /// The state of one search.
@@ -59,7 +76,7 @@ struct Search<'a> {
     problem: &'a HybridProblem<'a>,
     guide: &'a Guide<'a>,
     tree: Tree,
-    closed: StateSet,
+    states: StateCosts,
     open: OpenList,
 }
 
@@ -69,7 +86,7 @@ impl<'a> Search<'a> {
             problem,
             guide,
             tree: Tree::default(),
-            closed: StateSet::new(),
+            states: StateCosts::new(),
             open: OpenList::default(),
         }
     }
@@ -86,38 +103,67 @@ impl<'a> Search<'a> {
             self.open_moves(root);
         }
         while let Some(entry) = self.open.pop() {
-            let step = match entry.step {
-                Step::Shot(shot) => return Ok(self.tree.path(entry.parent, Some(shot))),
-                Step::Move(step) => step,
-            };
-            let node = self
-                .problem
-                .arrive(entry.parent, self.tree.node(entry.parent), step);
-            let key = self.problem.key(&node);
-            if !self.closed.vacant(key) {
-                continue;
+            match entry.step {
+                Step::Shot(shot) => return Ok(self.tree.path(entry.node, Some(shot))),
+                Step::Move(step) => {
+                    if limits.n_steps() - before == patience_steps {
+                        break;
+                    }
+                    limits.step()?;
+                    self.drive(entry.node, step);
+                }
+                Step::Expand if self.problem.at_goal(self.tree.node(entry.node).pose) => {
+                    return Ok(self.tree.path(entry.node, None));
+                }
+                Step::Expand => self.expand(entry.node),
             }
-            if limits.n_steps() - before == patience_steps {
-                break;
-            }
-            limits.step()?;
-            if !self
-                .problem
-                .is_free(self.tree.node(entry.parent).pose, node.arc)
-            {
-                continue;
-            }
-            self.closed.insert(key);
-            let id = self.tree.add(node);
-            if self.problem.at_goal(node.pose) {
-                return Ok(self.tree.path(id, None));
-            }
-            if self.guide.wants_shot(node.pose, id) {
-                self.open_shots(id);
-            }
-            self.open_moves(id);
         }
         Err(Status::NoPath)
+    }
+
+    /// Checks a motion from a node. Its true cost is known only now: where it leads waits on the
+    /// list for its turn.
+    fn drive(&mut self, parent: u32, step: u16) {
+        let from = self.tree.node(parent);
+        let mut node = self.problem.arrive(parent, from, step);
+        if !self.states.improves(self.problem.key(&node), node.cost) {
+            return;
+        }
+        let Some(cost) = self.problem.true_cost(from, from.pose, node.arc) else {
+            return;
+        };
+        node.cost = from.cost + cost;
+        let key = self.problem.key(&node);
+        if !self.states.improves(key, node.cost) {
+            return;
+        }
+        if let Some(estimate) = self.estimate(&node) {
+            self.states.reach(key, node.cost);
+            let node = self.tree.add(node);
+            self.open.push(Entry {
+                node,
+                step: Step::Expand,
+                estimate,
+            });
+        }
+    }
+
+    fn expand(&mut self, id: u32) {
+        let node = self.tree.node(id);
+        let (key, pose) = (self.problem.key(node), node.pose);
+        if self.states.is_closed(key) {
+            return;
+        }
+        self.states.close(key);
+        if self.guide.wants_shot(pose, id) {
+            self.open_shots(id);
+        }
+        self.open_moves(id);
+    }
+
+    fn estimate(&self, node: &Node) -> Option<f64> {
+        let to_go = self.guide.cost_to_go(node.pose)?;
+        Some(node.cost + self.problem.config().weight * to_go)
     }
 
     /// Puts the motions from a node on the list that may lead somewhere new.
@@ -125,13 +171,14 @@ impl<'a> Search<'a> {
         let from = *self.tree.node(parent);
         for step in 0..self.problem.n_moves(&from) {
             let node = self.problem.arrive(parent, &from, step);
-            if self.problem.hits(node.pose) || !self.closed.vacant(self.problem.key(&node)) {
+            if self.problem.hits(node.pose)
+                || !self.states.improves(self.problem.key(&node), node.cost)
+            {
                 continue;
             }
-            if let Some(to_go) = self.guide.cost_to_go(node.pose) {
-                let estimate = node.cost + self.problem.config().weight * to_go;
+            if let Some(estimate) = self.estimate(&node) {
                 self.open.push(Entry {
-                    parent,
+                    node: parent,
                     step: Step::Move(step),
                     estimate,
                 });
@@ -146,7 +193,7 @@ impl<'a> Search<'a> {
             let estimate = node.cost + cost;
             let shot = self.tree.add_shot(arcs);
             self.open.push(Entry {
-                parent,
+                node: parent,
                 step: Step::Shot(shot),
                 estimate,
             });

@@ -2,15 +2,27 @@
 
 use super::HybridAstarConfig;
 use super::tree::Node;
-use crate::collision::{Body, Drive, ObstacleMap};
+use crate::collision::{Body, Drive, MIN_CLEARANCE_M, ObstacleMap};
 use crate::geometry::{Arc, Pose2, angle_difference};
 use crate::map::Cell;
 use crate::scenario::{GoalTolerance, MotionMode, Request};
 use crate::vehicle::{Gears, PrimitiveSet, Vehicle, VehicleError};
 
+/// A step leads out of its state: it is longer than the state's diagonal.
+const STATES_PER_STEP: f64 = 1.5;
+
+fn gears(request: &Request) -> Gears {
+    match request.motion {
+        MotionMode::Forward => Gears::Forward,
+        MotionMode::Reverse => Gears::Both,
+    }
+}
+
 /// A request on a map for a vehicle, in grid coordinates.
+#[derive(Clone)]
 pub struct HybridProblem<'a> {
     obstacles: &'a ObstacleMap,
+    vehicle: &'a Vehicle,
     body: Body,
     config: &'a HybridAstarConfig,
     lattice: PrimitiveSet,
@@ -29,45 +41,53 @@ impl<'a> HybridProblem<'a> {
     /// A vehicle that does not steer.
     pub fn new(
         obstacles: &'a ObstacleMap,
-        vehicle: &Vehicle,
+        vehicle: &'a Vehicle,
         config: &'a HybridAstarConfig,
         request: &'a Request,
     ) -> Result<Self, VehicleError> {
-        let gears = match request.motion {
-            MotionMode::Forward => Gears::Forward,
-            MotionMode::Reverse => Gears::Both,
-        };
         let resolution_m = obstacles.frame().resolution_m();
         let radius_m = vehicle.min_turning_radius_m();
         // A cell of the map may be larger than the turning circle: half of that is the longest.
-        let longest_m = 3.0 * radius_m;
         let step_m = (config.step_radii * radius_m)
             .max(1.5 * resolution_m)
-            .min(longest_m);
-        let lattice = PrimitiveSet::new(
-            vehicle,
-            config.angle_quantization_bins as usize,
-            step_m,
-            gears,
-        )?;
-        let to_grid = |poses: Vec<Pose2>| poses.into_iter().map(|p| obstacles.frame().to_grid(p));
+            .min(3.0 * radius_m);
+        let n_headings = config.angle_quantization_bins as usize;
         let mut problem = Self {
             obstacles,
+            vehicle,
             body: Body::new(vehicle),
             config,
-            lattice,
-            state_m: step_m / 1.5,
+            lattice: PrimitiveSet::new(vehicle, n_headings, step_m, gears(request))?,
+            state_m: step_m / STATES_PER_STEP,
             radius_m,
             axle_inradius_m: vehicle.footprint().inradius().max(0.0),
             request,
             starts: Vec::new(),
             goals: Vec::new(),
         };
+        let to_grid = |poses: Vec<Pose2>| poses.into_iter().map(|p| obstacles.frame().to_grid(p));
         let stands_free = |pose: &Pose2| obstacles.is_free(&problem.body, &Drive::at(*pose));
         let starts = to_grid(request.start_poses()).filter(stands_free).collect();
         let goals = to_grid(request.goal_poses()).filter(stands_free).collect();
         (problem.starts, problem.goals) = (starts, goals);
         Ok(problem)
+    }
+
+    /// The same query on a lattice of steps a quarter as long and headings four times as dense,
+    /// for places where a vehicle must shunt.
+    pub(super) fn refined(&self) -> Self {
+        let n_headings = (4 * self.lattice.n_headings()).min(360);
+        let step_m =
+            (0.25 * self.state_m * STATES_PER_STEP).max(self.obstacles.frame().resolution_m());
+        let lattice = PrimitiveSet::new(self.vehicle, n_headings, step_m, gears(self.request));
+        match lattice {
+            Ok(lattice) => Self {
+                lattice,
+                state_m: step_m / STATES_PER_STEP,
+                ..self.clone()
+            },
+            Err(_) => self.clone(),
+        }
     }
 
     /// Radii by which to grow obstacles for the goal field, most first: halfway to what the body
@@ -150,7 +170,7 @@ impl<'a> HybridProblem<'a> {
             )
         };
         let pose = Pose2::at(position, self.lattice.heading_rad(heading_index));
-        let cost = parent.cost + self.cost(parent, arc, pose);
+        let cost = parent.cost + self.least_cost(parent, arc, pose);
         Node {
             pose,
             arc,
@@ -165,32 +185,41 @@ impl<'a> HybridProblem<'a> {
         self.obstacles.clearance_ceiling_m(&self.body, pose) < 0.0
     }
 
-    /// Whether a motion touches nothing.
-    pub(super) fn is_free(&self, from: Pose2, arc: Arc) -> bool {
+    /// Cost of a motion after a node, at least: its clearance is estimated from its end alone.
+    fn least_cost(&self, parent: &Node, arc: Arc, end: Pose2) -> f64 {
+        self.cost(
+            parent,
+            arc,
+            self.obstacles.clearance_ceiling_m(&self.body, end),
+        )
+    }
+
+    /// Cost of a motion from a pose, after a node's motion; none where the body touches anything.
+    pub(super) fn true_cost(&self, before: &Node, from: Pose2, arc: Arc) -> Option<f64> {
         let drive = Drive {
             start: from,
             curvature_per_m: arc.curvature_per_m,
             signed_length_m: arc.signed_length_m,
         };
-        self.obstacles.is_free(&self.body, &drive)
+        let wish_m = self.config.clearance_wish_m.max(2.0 * MIN_CLEARANCE_M);
+        let clearance_m = self.obstacles.drive_clearance_m(&self.body, &drive, wish_m);
+        (clearance_m > MIN_CLEARANCE_M).then(|| self.cost(before, arc, clearance_m))
     }
 
-    /// Cost of a motion after a node, ending at a pose.
-    pub(super) fn cost(&self, parent: &Node, arc: Arc, end: Pose2) -> f64 {
+    fn cost(&self, before: &Node, arc: Arc, clearance_m: f64) -> f64 {
         let config = self.config;
-        let near = match self.obstacles.clearance_ceiling_m(&self.body, end) {
-            clearance if clearance < config.clearance_wish_m => {
-                1.0 - clearance.max(0.0) / config.clearance_wish_m
-            }
-            _ => 0.0,
+        let near = if clearance_m < config.clearance_wish_m {
+            1.0 - clearance_m.max(0.0) / config.clearance_wish_m
+        } else {
+            0.0
         };
-        let switches = parent.arc.signed_length_m * arc.signed_length_m < 0.0;
-        self.driving_cost(arc) * (1.0 + config.cost_penalty * near)
-            + if switches { config.change_penalty } else { 0.0 }
+        let switches = before.arc.signed_length_m * arc.signed_length_m < 0.0;
+        let switching = if switches { config.change_penalty } else { 0.0 };
+        switching + self.driving_cost(arc) * (1.0 + config.cost_penalty * near)
     }
 
     /// Cost of an arc by its length, gear and steering alone.
-    pub(super) fn driving_cost(&self, arc: Arc) -> f64 {
+    fn driving_cost(&self, arc: Arc) -> f64 {
         let gear = if arc.signed_length_m < 0.0 {
             self.config.reverse_penalty
         } else {
