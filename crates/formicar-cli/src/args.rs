@@ -1,5 +1,6 @@
 //! Commands and flags.
 
+use crate::commands::{BenchArgs, MapArgs};
 use crate::values;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use formicar::geometry::{Point2, Pose2};
@@ -26,6 +27,10 @@ pub(crate) enum Command {
     Plan(Box<PlanArgs>),
     /// Judge a path, ours or foreign; exit code 3 where it cannot be driven.
     Check(CheckArgs),
+    /// Run planners on scenarios, one process per run: a table of results and a summary.
+    Bench(Box<BenchArgs>),
+    /// Describe, convert and generate maps; measure the way between two places.
+    Map(MapArgs),
     /// List planners, built-in vehicles and maps, or the scenarios of a file.
     List(ListArgs),
     /// Print the JSON schema of a document.
@@ -37,10 +42,16 @@ pub(crate) enum Command {
     },
     /// Print the manual page.
     Man,
+    /// One run of `bench`; it starts this by itself.
+    #[command(hide = true)]
+    BenchRun {
+        /// The run, as JSON.
+        job: String,
+    },
 }
 
 /// The ground: a map, and what closes parts of it; the vehicle on it.
-#[derive(Args, Debug)]
+#[derive(Args, Debug, Default)]
 pub(crate) struct GroundArgs {
     /// Map file (ROS .yaml, Moving AI .map, .csv or .txt matrix) or name of a built-in map.
     #[arg(long, value_name = "F|NAME", value_hint = ValueHint::FilePath)]

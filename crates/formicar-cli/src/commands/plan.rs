@@ -38,8 +38,8 @@ pub(super) struct Session {
 /// One answered query.
 pub(super) struct Answered {
     pub(super) answer: Answer,
-    result: Result<Outcome, PlanError>,
-    n_improvements: u32,
+    pub(super) result: Result<Outcome, PlanError>,
+    pub(super) n_improvements: u32,
 }
 
 /// Carries out `plan`.
@@ -101,7 +101,7 @@ fn request(args: &PlanArgs, ground: &Ground) -> RequestDocument {
 }
 
 impl Session {
-    fn new(ground: Ground, config: PlannerConfig, begun: Instant) -> Result<Self> {
+    pub(super) fn new(ground: Ground, config: PlannerConfig, begun: Instant) -> Result<Self> {
         let setup = Instant::now();
         let planner = Planner::new(&ground.map, ground.vehicle.vehicle.clone(), config.clone())?;
         Ok(Self {
