@@ -1,6 +1,7 @@
 //! Pictures of answers.
 
 use crate::ground::Ground;
+use crate::summary::clearance;
 use anyhow::Result;
 use formicar::geometry::Pose2;
 use formicar::planner::{Answer, Outcome, PathDocument};
@@ -76,9 +77,9 @@ fn profile(path: &PathDocument) -> Vec<ProfilePoint> {
 fn caption(answer: &Answer) -> String {
     match (&answer.reason, &answer.path, &answer.certificate) {
         (None, Some(path), Some(certificate)) => format!(
-            "{:.2} m, clearance {:.2} m, largest curvature {:.2} 1/m",
+            "{:.2} m, clearance {}, largest curvature {:.2} 1/m",
             path.poses.last().map_or(0.0, |pose| pose.s),
-            certificate.min_clearance_m,
+            clearance(certificate.min_clearance_m),
             certificate.max_curvature_per_m
         ),
         (reason, ..) => reason.clone().unwrap_or_default(),
