@@ -4,8 +4,10 @@
 //! occupancy grid, a [`vehicle::Vehicle`] and two poses, formicar returns a path that the vehicle
 //! can drive, proven by a [`validation::Certificate`], or a named reason why there is none.
 //!
-//! Modules are ranked: each uses only those above it in this list. SI units and radians inside;
-//! a pose is the centre of the rear axle, x forward, y left, heading counter-clockwise.
+//! Modules are ranked, and each uses only those before it: [`numeric`], [`geometry`], [`vehicle`],
+//! [`map`], [`path`], [`collision`], [`scenario`], [`validation`], [`metrics`], [`progress`],
+//! [`search`], [`planner`], [`render`]. SI units and radians inside; a pose is the center of the
+//! rear axle, x forward, y left, heading counter-clockwise.
 #![forbid(unsafe_code)]
 
 pub mod collision;
@@ -21,3 +23,8 @@ pub mod scenario;
 pub mod search;
 pub mod validation;
 pub mod vehicle;
+
+/// Compiles the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -203,7 +203,7 @@ mod tests {
             let mut grid = BitGrid::new(n_cols, n_rows);
             for (i, word) in blocked.iter().enumerate() {
                 let (row, w) = (i / 3, i % 3);
-                for cell in super::super::bit_grid::set_bits(*word).map(|b| (w * 64) as u32 + b) {
+                for cell in crate::map::set_bits(*word).map(|b| (w * 64) as u32 + b) {
                     if row < n_rows && (cell as usize) < n_cols {
                         grid.insert(Cell::new(cell, row as u32));
                     }

@@ -1,5 +1,6 @@
 //! How a run is watched, timed, limited and stopped; how it may end.
 
+use crate::scenario::ErrorCode;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
@@ -73,6 +74,18 @@ impl Status {
             Self::BudgetExhausted => "budget_exhausted",
             Self::TimedOut => "timed_out",
             Self::Cancelled => "cancelled",
+        }
+    }
+}
+
+/// Nav2's code for an ending.
+impl From<Status> for ErrorCode {
+    fn from(status: Status) -> Self {
+        match status {
+            Status::Found => Self::None,
+            Status::NoPath | Status::Infeasible | Status::BudgetExhausted => Self::NoValidPath,
+            Status::TimedOut => Self::Timeout,
+            Status::Cancelled => Self::Unknown,
         }
     }
 }

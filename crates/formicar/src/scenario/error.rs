@@ -1,6 +1,5 @@
 //! Requests that cannot be planned for, and Nav2's codes for outcomes.
 
-use crate::progress::Status;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -140,17 +139,6 @@ impl ErrorCode {
     /// Nav2's number of the code.
     pub fn number(self) -> u16 {
         self as u16
-    }
-}
-
-impl From<Status> for ErrorCode {
-    fn from(status: Status) -> Self {
-        match status {
-            Status::Found => Self::None,
-            Status::NoPath | Status::Infeasible | Status::BudgetExhausted => Self::NoValidPath,
-            Status::TimedOut => Self::Timeout,
-            Status::Cancelled => Self::Unknown,
-        }
     }
 }
 

@@ -155,8 +155,8 @@ fn grey_from_top(grid: &OccupancyGrid) -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{GreyImage, ReadOptions, read_map};
     use super::*;
+    use crate::map::format::{GreyImage, ReadOptions, read_map};
 
     #[test]
     fn saves_as_the_map_saver_does() {
