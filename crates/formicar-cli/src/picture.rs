@@ -2,9 +2,11 @@
 
 use crate::ground::Ground;
 use anyhow::Result;
-use formicar::geometry::Pose2;
+use formicar::collision::{Body, ObstacleMap};
+use formicar::geometry::{Point2, Pose2};
 use formicar::planner::{Answer, Outcome, PathDocument};
 use formicar::render::{Picture, PlanPicture, ProfilePoint, plan_picture};
+use formicar::vehicle::Vehicle;
 
 /// The formats of pictures.
 #[derive(Clone, Copy, Debug)]
@@ -21,7 +23,11 @@ pub(crate) const KINDS: [(&str, PictureKind); 2] =
 const PNG_WIDTH_PX: u32 = 1600;
 
 /// The picture of an answer, with or without a path.
-pub(crate) fn of(ground: &Ground, answer: &Answer, outcome: &Outcome) -> Picture {
+pub(crate) fn of(
+    (ground, obstacles): (&Ground, &ObstacleMap),
+    answer: &Answer,
+    outcome: &Outcome,
+) -> Picture {
     let pose = |ends: Option<[f64; 3]>| {
         let [x, y, heading] = ends.unwrap_or_default();
         Pose2::new(x, y, heading)
@@ -45,13 +51,23 @@ pub(crate) fn of(ground: &Ground, answer: &Answer, outcome: &Outcome) -> Picture
         goal: pose(request.goal),
         path,
         profile: &profile,
-        tightest: report.map(|r| (r.tightest.position(), r.min_clearance_m)),
+        tightest: report.map(|r| {
+            let place = contact(obstacles, &ground.vehicle.vehicle, r.tightest);
+            (place, r.min_clearance_m)
+        }),
         title: &format!(
             "{}: {} by {}",
             ground.record.name, answer.status, answer.planner
         ),
         caption: &caption(answer),
     })
+}
+
+/// The place of an obstacle that the vehicle comes nearest to.
+fn contact(obstacles: &ObstacleMap, vehicle: &Vehicle, tightest: Pose2) -> Point2 {
+    let frame = obstacles.frame();
+    let place = obstacles.nearest_obstacle(&Body::new(vehicle), frame.to_grid(tightest));
+    frame.to_world(Pose2::at(place, 0.0)).position()
 }
 
 /// The bytes of a picture.

@@ -184,7 +184,7 @@ fn write_files(
     }
     if let (Some(target), Ok(outcome)) = (picture, &answered.result) {
         let ground = &session.ground;
-        let image = picture::of(ground, &answered.answer, outcome);
+        let image = picture::of((ground, &session.obstacles), &answered.answer, outcome);
         target.write(&picture::encode(&image, target.kind)?)?;
     }
     Ok(())

@@ -60,6 +60,12 @@ impl Picture {
         document.as_str().to_owned()
     }
 
+    /// Width and height of the page in pixels, as the SVG states them.
+    pub fn size_px(&self) -> Point2 {
+        let size = self.draw(&mut Svg::default());
+        Point2::new(size.x.ceil(), size.y.ceil())
+    }
+
     /// Draws everything and returns the size of the page.
     fn draw(&self, svg: &mut Svg) -> Point2 {
         let width_px = self.width_px();
