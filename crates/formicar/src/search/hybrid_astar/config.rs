@@ -45,8 +45,8 @@ impl Default for HybridAstarConfig {
             reverse_penalty: 2.0,
             change_penalty: 1.0,
             non_straight_penalty: 1.05,
-            cost_penalty: 0.5,
-            clearance_wish_m: 0.5,
+            cost_penalty: 1.0,
+            clearance_wish_m: 0.3,
         }
     }
 }

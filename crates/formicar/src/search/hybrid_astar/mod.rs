@@ -86,38 +86,62 @@ impl<'a> Search<'a> {
             self.open_moves(root);
         }
         while let Some(entry) = self.open.pop() {
-            let step = match entry.step {
-                Step::Shot(shot) => return Ok(self.tree.path(entry.parent, Some(shot))),
-                Step::Move(step) => step,
-            };
-            let node = self
-                .problem
-                .arrive(entry.parent, self.tree.node(entry.parent), step);
-            let key = self.problem.key(&node);
-            if !self.closed.vacant(key) {
-                continue;
+            match entry.step {
+                Step::Shot(shot) => return Ok(self.tree.path(entry.node, Some(shot))),
+                Step::Move(step) => {
+                    if limits.n_steps() - before == patience_steps {
+                        break;
+                    }
+                    limits.step()?;
+                    self.drive(entry.node, step);
+                }
+                Step::Expand if self.problem.at_goal(self.tree.node(entry.node).pose) => {
+                    return Ok(self.tree.path(entry.node, None));
+                }
+                Step::Expand => self.expand(entry.node),
             }
-            if limits.n_steps() - before == patience_steps {
-                break;
-            }
-            limits.step()?;
-            if !self
-                .problem
-                .is_free(self.tree.node(entry.parent).pose, node.arc)
-            {
-                continue;
-            }
-            self.closed.insert(key);
-            let id = self.tree.add(node);
-            if self.problem.at_goal(node.pose) {
-                return Ok(self.tree.path(id, None));
-            }
-            if self.guide.wants_shot(node.pose, id) {
-                self.open_shots(id);
-            }
-            self.open_moves(id);
         }
         Err(Status::NoPath)
+    }
+
+    /// Checks a motion from a node. Its true cost is known only now: where it leads waits on the
+    /// list for its turn.
+    fn drive(&mut self, parent: u32, step: u16) {
+        let from = self.tree.node(parent);
+        let mut node = self.problem.arrive(parent, from, step);
+        if !self.closed.vacant(self.problem.key(&node)) {
+            return;
+        }
+        let Some(cost) = self.problem.true_cost(from, from.pose, node.arc) else {
+            return;
+        };
+        node.cost = from.cost + cost;
+        if let Some(estimate) = self.estimate(&node) {
+            let node = self.tree.add(node);
+            self.open.push(Entry {
+                node,
+                step: Step::Expand,
+                estimate,
+            });
+        }
+    }
+
+    fn expand(&mut self, id: u32) {
+        let node = self.tree.node(id);
+        let (key, pose) = (self.problem.key(node), node.pose);
+        if !self.closed.vacant(key) {
+            return;
+        }
+        self.closed.insert(key);
+        if self.guide.wants_shot(pose, id) {
+            self.open_shots(id);
+        }
+        self.open_moves(id);
+    }
+
+    fn estimate(&self, node: &Node) -> Option<f64> {
+        let to_go = self.guide.cost_to_go(node.pose)?;
+        Some(node.cost + self.problem.config().weight * to_go)
     }
 
     /// Puts the motions from a node on the list that may lead somewhere new.
@@ -128,10 +152,9 @@ impl<'a> Search<'a> {
             if self.problem.hits(node.pose) || !self.closed.vacant(self.problem.key(&node)) {
                 continue;
             }
-            if let Some(to_go) = self.guide.cost_to_go(node.pose) {
-                let estimate = node.cost + self.problem.config().weight * to_go;
+            if let Some(estimate) = self.estimate(&node) {
                 self.open.push(Entry {
-                    parent,
+                    node: parent,
                     step: Step::Move(step),
                     estimate,
                 });
@@ -146,7 +169,7 @@ impl<'a> Search<'a> {
             let estimate = node.cost + cost;
             let shot = self.tree.add_shot(arcs);
             self.open.push(Entry {
-                parent,
+                node: parent,
                 step: Step::Shot(shot),
                 estimate,
             });

@@ -6,8 +6,10 @@ use std::collections::BinaryHeap;
 /// What can follow a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Step {
-    /// A motion onto another state, by its number.
+    /// A motion onto another state, by its number; not yet checked.
     Move(u16),
+    /// Whatever leads on from there.
+    Expand,
     /// A free curve to the goal, by its number.
     Shot(u32),
 }
@@ -15,7 +17,7 @@ pub(super) enum Step {
 /// A step from a node with the estimated cost of a path through it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entry {
-    pub(super) parent: u32,
+    pub(super) node: u32,
     pub(super) step: Step,
     pub(super) estimate: f64,
 }
@@ -74,14 +76,14 @@ mod tests {
     #[test]
     fn least_estimate_first_then_the_latest() {
         let mut open = OpenList::default();
-        for (parent, estimate) in [(0, 2.0), (1, 1.0), (2, 1.0), (3, 3.0)] {
+        for (node, estimate) in [(0, 2.0), (1, 1.0), (2, 1.0), (3, 3.0)] {
             open.push(Entry {
-                parent,
+                node,
                 step: Step::Move(0),
                 estimate,
             });
         }
-        let order: Vec<u32> = std::iter::from_fn(|| open.pop().map(|e| e.parent)).collect();
+        let order: Vec<u32> = std::iter::from_fn(|| open.pop().map(|e| e.node)).collect();
         assert_eq!(order, [2, 1, 0, 3]);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::HybridAstarConfig;
 use super::tree::Node;
-use crate::collision::{Body, Drive, ObstacleMap};
+use crate::collision::{Body, Drive, MIN_CLEARANCE_M, ObstacleMap};
 use crate::geometry::{Arc, Pose2, angle_difference};
 use crate::map::Cell;
 use crate::scenario::{GoalTolerance, MotionMode, Request};
@@ -150,7 +150,7 @@ impl<'a> HybridProblem<'a> {
             )
         };
         let pose = Pose2::at(position, self.lattice.heading_rad(heading_index));
-        let cost = parent.cost + self.cost(parent, arc, pose);
+        let cost = parent.cost + self.least_cost(parent, arc, pose);
         Node {
             pose,
             arc,
@@ -165,32 +165,41 @@ impl<'a> HybridProblem<'a> {
         self.obstacles.clearance_ceiling_m(&self.body, pose) < 0.0
     }
 
-    /// Whether a motion touches nothing.
-    pub(super) fn is_free(&self, from: Pose2, arc: Arc) -> bool {
+    /// Cost of a motion after a node, at least: its clearance is estimated from its end alone.
+    fn least_cost(&self, parent: &Node, arc: Arc, end: Pose2) -> f64 {
+        self.cost(
+            parent,
+            arc,
+            self.obstacles.clearance_ceiling_m(&self.body, end),
+        )
+    }
+
+    /// Cost of a motion from a pose, after a node's motion; none where the body touches anything.
+    pub(super) fn true_cost(&self, before: &Node, from: Pose2, arc: Arc) -> Option<f64> {
         let drive = Drive {
             start: from,
             curvature_per_m: arc.curvature_per_m,
             signed_length_m: arc.signed_length_m,
         };
-        self.obstacles.is_free(&self.body, &drive)
+        let wish_m = self.config.clearance_wish_m.max(2.0 * MIN_CLEARANCE_M);
+        let clearance_m = self.obstacles.drive_clearance_m(&self.body, &drive, wish_m);
+        (clearance_m > MIN_CLEARANCE_M).then(|| self.cost(before, arc, clearance_m))
     }
 
-    /// Cost of a motion after a node, ending at a pose.
-    pub(super) fn cost(&self, parent: &Node, arc: Arc, end: Pose2) -> f64 {
+    fn cost(&self, before: &Node, arc: Arc, clearance_m: f64) -> f64 {
         let config = self.config;
-        let near = match self.obstacles.clearance_ceiling_m(&self.body, end) {
-            clearance if clearance < config.clearance_wish_m => {
-                1.0 - clearance.max(0.0) / config.clearance_wish_m
-            }
-            _ => 0.0,
+        let near = if clearance_m < config.clearance_wish_m {
+            1.0 - clearance_m.max(0.0) / config.clearance_wish_m
+        } else {
+            0.0
         };
-        let switches = parent.arc.signed_length_m * arc.signed_length_m < 0.0;
-        self.driving_cost(arc) * (1.0 + config.cost_penalty * near)
-            + if switches { config.change_penalty } else { 0.0 }
+        let switches = before.arc.signed_length_m * arc.signed_length_m < 0.0;
+        let switching = if switches { config.change_penalty } else { 0.0 };
+        switching + self.driving_cost(arc) * (1.0 + config.cost_penalty * near)
     }
 
     /// Cost of an arc by its length, gear and steering alone.
-    pub(super) fn driving_cost(&self, arc: Arc) -> f64 {
+    fn driving_cost(&self, arc: Arc) -> f64 {
         let gear = if arc.signed_length_m < 0.0 {
             self.config.reverse_penalty
         } else {
