@@ -1,11 +1,12 @@
 //! Pictures of answers.
 
 use crate::ground::Ground;
+use crate::summary::counted;
 use anyhow::Result;
 use formicar::collision::{Body, ObstacleMap};
 use formicar::geometry::{Point2, Pose2};
 use formicar::planner::{Answer, Outcome, PathDocument};
-use formicar::render::{Picture, PlanPicture, ProfilePoint, plan_picture};
+use formicar::render::{Layout, Picture, PlanPicture, ProfilePoint, plan_picture_in};
 use formicar::vehicle::Vehicle;
 
 /// The formats of pictures.
@@ -27,6 +28,7 @@ pub(crate) fn of(
     (ground, obstacles): (&Ground, &ObstacleMap),
     answer: &Answer,
     outcome: &Outcome,
+    layout: Layout,
 ) -> Picture {
     let pose = |ends: Option<[f64; 3]>| {
         let [x, y, heading] = ends.unwrap_or_default();
@@ -44,7 +46,7 @@ pub(crate) fn of(
         }
     };
     let profile = answer.path.as_ref().map(profile).unwrap_or_default();
-    plan_picture(&PlanPicture {
+    let plan = PlanPicture {
         map: &ground.map,
         vehicle: &ground.vehicle.vehicle,
         start: pose(request.start),
@@ -56,11 +58,13 @@ pub(crate) fn of(
             (place, r.min_clearance_m)
         }),
         title: &format!(
-            "{}: {} by {}",
-            ground.record.name, answer.status, answer.planner
+            "{}: {}",
+            ground.record.name,
+            answer.status.replace('_', " ")
         ),
-        caption: &caption(answer),
-    })
+        caption: &caption(answer, &ground.vehicle.vehicle),
+    };
+    plan_picture_in(&plan, layout)
 }
 
 /// The place of an obstacle that the vehicle comes nearest to.
@@ -89,14 +93,23 @@ fn profile(path: &PathDocument) -> Vec<ProfilePoint> {
     path.poses.iter().map(point).collect()
 }
 
-fn caption(answer: &Answer) -> String {
-    match (&answer.reason, &answer.path, &answer.certificate) {
-        (None, Some(path), Some(certificate)) => format!(
-            "{:.2} m, clearance {:.2} m, largest curvature {:.2} 1/m",
-            path.poses.last().map_or(0.0, |pose| pose.s),
-            certificate.min_clearance_m,
-            certificate.max_curvature_per_m
-        ),
-        (reason, ..) => reason.clone().unwrap_or_default(),
+/// Key numbers of a path, or the reason why there is none.
+fn caption(answer: &Answer, vehicle: &Vehicle) -> String {
+    let (Some(metrics), None) = (&answer.metrics, &answer.reason) else {
+        return answer.reason.clone().unwrap_or_default();
+    };
+    let mut parts = vec![
+        format!("{:.2} m", metrics.length_m),
+        format!("clearance {:.3} m", metrics.min_clearance_m),
+    ];
+    let limit_per_m = vehicle.max_curvature_per_m();
+    if limit_per_m.is_finite() {
+        let largest_per_m = metrics.max_curvature_per_m;
+        parts.push(format!(
+            "curvature {largest_per_m:.2} of {limit_per_m:.2} 1/m"
+        ));
+        parts.push(counted(metrics.n_cusps, "cusp"));
     }
+    let by = format!("{} by {}", answer.provenance.vehicle.name, answer.planner);
+    format!("{by}: {}", parts.join(", "))
 }

@@ -30,7 +30,7 @@ pub(crate) fn run(args: &DemoArgs, out: &mut impl Write) -> Result<Ending, Failu
     let begun = Instant::now();
     let cases = select(&args.only)?;
     let page = prepare(&args.out)?;
-    let table = table::Table::new(&cases);
+    let mut table = table::Table::new(&cases);
     table.write_head(out)?;
     let done = carry_out(&cases, |done| {
         write_files(&args.out, done)?;

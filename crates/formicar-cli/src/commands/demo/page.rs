@@ -6,6 +6,7 @@ use super::run::{Done, status};
 use super::table::{Numbers, tally};
 use crate::summary::duration;
 use formicar::planner::Answer;
+use formicar::render::Picture;
 use std::fmt::Write;
 
 const STYLE: &str = include_str!("style.css");
@@ -58,7 +59,7 @@ fn overview(page: &mut Html, done: &[Done]) {
         "curvature",
         "cusps",
         "steps",
-        "map",
+        "map set-up",
         "first path",
         "query",
     ] {
@@ -161,16 +162,21 @@ fn facts(page: &mut Html, done: &Done) {
 fn figure(page: &mut Html, done: &Done) {
     let id = done.case.id();
     let file = |extension: &str| format!("{RUNS_FOLDER}/{id}.{extension}");
-    let size = done.picture.size_px();
+    let sized = |picture: &Picture| {
+        let size = picture.size_px();
+        format!("width=\"{}\" height=\"{}\"", size.x, size.y)
+    };
     page.raw(&format!(
-        "<figure><a href=\"{}\"><img src=\"{}\" width=\"{}\" height=\"{}\" loading=\"lazy\" alt=\"",
-        file("svg"),
-        file("svg"),
-        size.x.ceil(),
-        size.y.ceil()
+        "<figure><a href=\"{svg}\"><picture>\n\
+         <source media=\"(max-width: 700px)\" srcset=\"{phone}\" {phone_size}>\n\
+         <img src=\"{svg}\" {size} loading=\"lazy\" alt=\"",
+        svg = file("svg"),
+        phone = file("phone.svg"),
+        phone_size = sized(&done.phone),
+        size = sized(&done.picture),
     ));
     page.text(&format!("{}. {}", done.picture.title, done.picture.caption));
-    page.raw("\"></a>\n<figcaption>");
+    page.raw("\"></picture></a>\n<figcaption>");
     page.link(&file("svg"), "picture (SVG)");
     if done.case.has_png {
         page.raw(" ");

@@ -6,7 +6,7 @@ use crate::picture::{self, PictureKind};
 use anyhow::{Context, Result};
 use formicar::numeric::Seed;
 use formicar::planner::{Answer, AnswerContext, Outcome, Planner, PlannerConfig, Timing};
-use formicar::render::Picture;
+use formicar::render::{Layout, Picture};
 use std::time::Instant;
 
 /// The seed of every run.
@@ -21,6 +21,8 @@ pub(super) struct Done<'a> {
     /// Largest curvature that the vehicle can drive; infinite for a point.
     pub(super) max_curvature_per_m: f64,
     pub(super) picture: Picture,
+    /// The same for narrow screens.
+    pub(super) phone: Picture,
     png: Option<Vec<u8>>,
 }
 
@@ -56,8 +58,13 @@ pub(super) fn run(case: &Case) -> Result<Done<'_>> {
         Outcome::Found(plan) => plan.n_steps,
         Outcome::NotFound(failure) => failure.n_steps,
     };
-    let mut picture = picture::of((&ground, planner.obstacles()), &answer, &outcome);
-    picture.title = format!("{}: {}", case.title(), status(&answer));
+    let drawn = |layout| {
+        let place = (&ground, &**planner.obstacles());
+        let mut picture = picture::of(place, &answer, &outcome, layout);
+        picture.title = format!("{}: {}", case.title(), status(&answer));
+        picture
+    };
+    let (picture, phone) = (drawn(Layout::Page), drawn(Layout::Phone));
     let png = case
         .has_png
         .then(|| picture::encode(&picture, PictureKind::Png));
@@ -67,6 +74,7 @@ pub(super) fn run(case: &Case) -> Result<Done<'_>> {
         max_curvature_per_m: ground.vehicle.vehicle.max_curvature_per_m(),
         png: png.transpose()?,
         picture,
+        phone,
         answer,
     })
 }
@@ -88,6 +96,7 @@ impl Done<'_> {
         json.push(b'\n');
         let mut files = vec![
             ("svg", picture::encode(&self.picture, PictureKind::Svg)?),
+            ("phone.svg", picture::encode(&self.phone, PictureKind::Svg)?),
             ("json", json),
         ];
         files.extend(self.png.clone().map(|png| ("png", png)));

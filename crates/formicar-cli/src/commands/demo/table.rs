@@ -9,9 +9,10 @@ use std::path::Path;
 /// Reasons are broken into lines of this width.
 const REASON_WIDTH: usize = 96;
 
-/// Widths that fit every run.
+/// Widths that fit every run, and where the table stands.
 pub(super) struct Table {
     name_width: usize,
+    chapter: Option<Chapter>,
 }
 
 impl Table {
@@ -19,6 +20,7 @@ impl Table {
         let widths = cases.iter().map(|case| case.title().len());
         Self {
             name_width: widths.max().unwrap_or(0),
+            chapter: None,
         }
     }
 
@@ -38,7 +40,10 @@ impl Table {
         )
     }
 
-    pub(super) fn write_row(&self, done: &Done, out: &mut impl Write) -> io::Result<()> {
+    pub(super) fn write_row(&mut self, done: &Done, out: &mut impl Write) -> io::Result<()> {
+        if self.chapter.replace(done.case.chapter) != Some(done.case.chapter) {
+            writeln!(out)?;
+        }
         let numbers = Numbers::of(done);
         writeln!(
             out,
