@@ -44,7 +44,7 @@ pub(crate) enum Command {
 /// The ground: a map, and what closes parts of it; the vehicle on it.
 #[derive(Args, Debug)]
 pub(crate) struct GroundArgs {
-    /// Map file (ROS .yaml, MovingAI .map, .csv or .txt matrix) or name of a built-in map.
+    /// Map file (ROS .yaml, Moving AI .map, .csv or .txt matrix) or name of a built-in map.
     #[arg(long, value_name = "F|NAME", value_hint = ValueHint::FilePath)]
     pub(crate) map: Option<String>,
 
@@ -135,7 +135,7 @@ pub(crate) struct PlanArgs {
     #[arg(long, value_name = "M,RAD", value_parser = values::goal_tolerance, allow_hyphen_values = true)]
     pub(crate) goal_tolerance: Option<GoalTolerance>,
 
-    /// Planner (see `list planners`); `hybrid-astar` by default.
+    /// Planner (see `list planners`); `hybrid-astar` by default, `astar` for a point.
     #[arg(long, value_name = "NAME")]
     pub(crate) planner: Option<PlannerName>,
 
@@ -143,7 +143,7 @@ pub(crate) struct PlanArgs {
     #[arg(long, value_name = "F.toml", value_hint = ValueHint::FilePath)]
     pub(crate) config: Option<PathBuf>,
 
-    /// One planner parameter, for instance hybrid_astar.weight=1.2; may be repeated.
+    /// One planner parameter, for instance `hybrid_astar.weight=1.2`; may be repeated.
     #[arg(long, value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
 

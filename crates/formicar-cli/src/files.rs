@@ -2,7 +2,7 @@
 
 use crate::ground::{Found, NamedVehicle};
 use anyhow::{Context, Result, bail};
-use formicar::map::format::{CarScenario, ReadOptions, read_car_scenarios, read_map};
+use formicar::map::format::{CarScenario, ReadOptions, TpcapCase, read_car_scenarios, read_map};
 use formicar::vehicle::Vehicle;
 use std::fs::File;
 use std::io::Read;
@@ -147,20 +147,5 @@ impl CarFile {
             (s.id.clone(), about)
         };
         self.scenarios.iter().map(row).collect()
-    }
-}
-
-// TPCAP STUB
-pub(crate) struct TpcapCase {
-    start: formicar::geometry::Pose2,
-    goal: formicar::geometry::Pose2,
-    obstacles: Vec<u8>,
-}
-impl TpcapCase {
-    fn read(path: &Path) -> Result<Self> {
-        bail!("{}: to come", path.display())
-    }
-    fn rasterize(&self, _r: f64) -> Result<formicar::map::OccupancyGrid> {
-        bail!("to come")
     }
 }

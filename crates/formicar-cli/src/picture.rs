@@ -1,7 +1,7 @@
 //! Pictures of answers.
 
 use crate::ground::Ground;
-use crate::summary::counted;
+use crate::summary::{clearance, counted};
 use anyhow::Result;
 use formicar::collision::{Body, ObstacleMap};
 use formicar::geometry::{Point2, Pose2};
@@ -100,7 +100,7 @@ fn caption(answer: &Answer, vehicle: &Vehicle) -> String {
     };
     let mut parts = vec![
         format!("{:.2} m", metrics.length_m),
-        format!("clearance {:.3} m", metrics.min_clearance_m),
+        format!("clearance {}", clearance(metrics.min_clearance_m)),
     ];
     let limit_per_m = vehicle.max_curvature_per_m();
     if limit_per_m.is_finite() {

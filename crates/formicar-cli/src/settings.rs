@@ -2,15 +2,34 @@
 
 use anyhow::{Context, Result, anyhow, bail};
 use formicar::planner::{PlannerConfig, PlannerName};
+use formicar::vehicle::Motion;
 use std::path::Path;
 use toml::{Table, Value};
+
+/// Planner parameters, and whether the planner among them was chosen.
+#[derive(Debug)]
+pub(crate) struct Settings {
+    config: PlannerConfig,
+    has_planner: bool,
+}
+
+impl Settings {
+    /// The parameters for a vehicle: a point, which hybrid A* does not drive, is planned for by
+    /// A* unless a planner was chosen.
+    pub(crate) fn for_motion(mut self, motion: Motion) -> PlannerConfig {
+        if motion == Motion::Point && !self.has_planner {
+            self.config.planner = PlannerName::Astar;
+        }
+        self.config
+    }
+}
 
 /// The parameters: defaults, then the file, then single keys, then the planner's name.
 pub(crate) fn load(
     file: Option<&Path>,
     sets: &[String],
     planner: Option<PlannerName>,
-) -> Result<PlannerConfig> {
+) -> Result<Settings> {
     let mut table = match file {
         Some(path) => read(path)?,
         None => Table::new(),
@@ -18,6 +37,7 @@ pub(crate) fn load(
     for set in sets {
         apply(&mut table, set)?;
     }
+    let has_planner = planner.is_some() || table.contains_key("planner");
     let mut config: PlannerConfig = table
         .try_into()
         .map_err(|e| anyhow!("planner parameters: {}", one_line(&e)))?;
@@ -25,7 +45,10 @@ pub(crate) fn load(
         config.planner = planner;
     }
     config.check()?;
-    Ok(config)
+    Ok(Settings {
+        config,
+        has_planner,
+    })
 }
 
 fn read(path: &Path) -> Result<Table> {
@@ -118,7 +141,21 @@ mod tests {
 
     fn with(sets: &[&str]) -> Result<PlannerConfig> {
         let sets: Vec<_> = sets.iter().map(|s| (*s).to_owned()).collect();
-        load(None, &sets, None)
+        Ok(load(None, &sets, None)?.for_motion(Motion::Car))
+    }
+
+    #[test]
+    fn a_point_is_planned_for_on_the_grid_unless_told_otherwise() {
+        let planner = |choice| {
+            let settings = load(None, &[], choice).unwrap();
+            settings.for_motion(Motion::Point).planner
+        };
+        assert_eq!(planner(None), PlannerName::Astar);
+        assert_eq!(planner(Some(PlannerName::Dijkstra)), PlannerName::Dijkstra);
+        assert_eq!(
+            planner(Some(PlannerName::HybridAstar)),
+            PlannerName::HybridAstar
+        );
     }
 
     #[test]

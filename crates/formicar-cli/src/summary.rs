@@ -21,9 +21,9 @@ pub(crate) fn write(
     let n_cusps = changes.filter(|w| w[0].direction != w[1].direction).count();
     writeln!(
         out,
-        "{:<9}  {length_m:.2} m  clearance {:.2} m  {}{}",
+        "{:<9}  {length_m:.2} m  clearance {}{}  {}",
         answer.status,
-        certificate.min_clearance_m,
+        clearance(certificate.min_clearance_m),
         curvature(certificate.max_curvature_per_m, vehicle),
         counted(n_cusps, "cusp"),
     )?;
@@ -42,12 +42,21 @@ pub(crate) fn write(
 }
 
 /// Largest curvature against the limit; nothing for a point, which has none.
-fn curvature(largest_per_m: f64, vehicle: &Vehicle) -> String {
+pub(crate) fn curvature(largest_per_m: f64, vehicle: &Vehicle) -> String {
     let limit = vehicle.max_curvature_per_m();
     if limit.is_finite() {
-        format!("curvature {largest_per_m:.2} of {limit:.2} 1/m  ")
+        format!("  curvature {largest_per_m:.2} of {limit:.2} 1/m")
     } else {
         String::new()
+    }
+}
+
+/// A clearance, to the millimetre where it is small.
+pub(crate) fn clearance(metres: f64) -> String {
+    if metres < 0.1 {
+        format!("{metres:.3} m")
+    } else {
+        format!("{metres:.2} m")
     }
 }
 

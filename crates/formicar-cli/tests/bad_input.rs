@@ -100,7 +100,7 @@ fn numbers_out_of_range() {
         ("--margin", "inf"),
         ("--deadline", "0"),
         ("--deadline", "-5"),
-        ("--budget", "-1"),
+        ("--budget", "many"),
         ("--threads", "0"),
         ("--seed", "x"),
         ("--resolution", "0"),

@@ -55,6 +55,16 @@ fn what_cannot_be_driven_is_exit_3_with_every_reason() {
 }
 
 #[test]
+fn points_are_driven_in_either_gear() {
+    let room = Room::new();
+    // The nose would reach into the wall on the right; the rear is short.
+    room.write("back.csv", "x,y\n4,3\n4.5,3\n5.2,3\n5.7,3\n");
+    let run = room.run(&["check", "back.csv", "--map", "room.yaml", "--json"]);
+    assert_eq!(run.code, 0, "{}", run.stdout);
+    assert_eq!(run.json()["first_gear"], -1);
+}
+
+#[test]
 fn another_map_or_vehicle_than_certified_is_told() {
     let room = Room::new();
     assert_eq!(room.plan(&["--out", "path.json"]).code, 0);

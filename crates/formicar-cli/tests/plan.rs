@@ -1,5 +1,7 @@
 //! `plan`: answers, files, statuses and exit codes.
 
+#![allow(clippy::unwrap_used, reason = "a test may fail where it likes")]
+
 mod common;
 
 use common::{Room, formicar_in};
@@ -218,6 +220,17 @@ fn built_in_maps_bring_start_goal_and_vehicle() {
     let run = Room::new().run(&["plan", "--map", "warehouse", "--json"]);
     assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
     assert_eq!(run.json()["provenance"]["map"]["name"], "warehouse");
+}
+
+#[test]
+fn grid_problems_are_planned_for_points() {
+    let answer = Room::new()
+        .run(&["plan", "--map", "aco20", "--json"])
+        .json();
+    assert_eq!(
+        (&answer["status"], &answer["planner"]),
+        (&json!("found"), &json!("astar"))
+    );
 }
 
 #[test]

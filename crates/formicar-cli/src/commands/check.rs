@@ -2,11 +2,11 @@
 
 use crate::args::CheckArgs;
 use crate::failure::{Ending, Failure};
-use crate::summary::counted;
+use crate::summary::{clearance, counted, curvature};
 use crate::{files, ground};
 use anyhow::{Context, Result, anyhow};
 use formicar::collision::ObstacleMap;
-use formicar::path::CurvePath;
+use formicar::path::{CurvePath, Direction};
 use formicar::planner::{CertificateHashes, StoredPath};
 use formicar::scenario::Request;
 use formicar::validation::{
@@ -28,6 +28,8 @@ struct Checked {
     curvature_slack: f64,
     /// How far the path that was judged may pass by the samples: they are rounded.
     sample_deviation_m: f64,
+    /// The gear in which the path begins: 1 forward, -1 in reverse.
+    first_gear: Direction,
     length_m: f64,
     n_segments: usize,
     certificate: Report,
@@ -57,6 +59,8 @@ struct Matches {
 /// A path to be judged.
 struct Subject {
     path: CurvePath,
+    /// The same points driven with the gears exchanged, where they may be.
+    exchanged: Option<CurvePath>,
     source: Source,
     sample_deviation_m: f64,
     request: Option<Request>,
@@ -89,6 +93,7 @@ fn read(path: &Path, vehicle: &Vehicle) -> Result<Subject> {
         let stored = StoredPath::from_json(&text).with_context(name)?;
         return Ok(Subject {
             path: stored.path,
+            exchanged: None,
             source: Source::Segments,
             sample_deviation_m: 0.0,
             request: stored.request,
@@ -96,12 +101,18 @@ fn read(path: &Path, vehicle: &Vehicle) -> Result<Subject> {
         });
     }
     let samples = Samples::from_csv(&text).with_context(name)?;
-    let path = match vehicle.motion() {
-        Motion::Point => Some(CurvePath::from_polyline(&samples.points)),
-        Motion::Car => samples.path(),
+    let polyline = || Some(CurvePath::from_polyline(&samples.points));
+    let (path, exchanged) = match (vehicle.motion(), &samples.headings) {
+        (Motion::Point, _) => (polyline(), None),
+        (Motion::Car, Some(_)) => (samples.path(Direction::Forward), None),
+        (Motion::Car, None) => (
+            samples.path(Direction::Forward),
+            samples.path(Direction::Reverse),
+        ),
     };
     Ok(Subject {
         path: path.ok_or_else(|| anyhow!("no poses")).with_context(name)?,
+        exchanged,
         source: match samples.headings {
             Some(_) => Source::Poses,
             None => Source::Points,
@@ -117,10 +128,19 @@ fn check(subject: &Subject, obstacles: &ObstacleMap, vehicle: &Vehicle) -> Check
         Source::Segments => CURVATURE_TOLERANCE,
         Source::Poses | Source::Points => FOREIGN_CURVATURE_SLACK,
     };
-    let report = match &subject.request {
-        Some(request) => judge(obstacles, vehicle, request, &subject.path),
-        None => judge_path(obstacles, vehicle, &subject.path, curvature_slack),
+    let alone = |path| judge_path(obstacles, vehicle, path, curvature_slack);
+    let mut path = &subject.path;
+    let mut report = match &subject.request {
+        Some(request) => judge(obstacles, vehicle, request, path),
+        None => alone(path),
     };
+    // Points do not tell the gears: one way to drive them is enough.
+    if let (false, Some(exchanged)) = (report.valid, &subject.exchanged) {
+        let other = alone(exchanged);
+        if other.valid {
+            (path, report) = (exchanged, other);
+        }
+    }
     let matches_record = subject.hashes.as_ref().map(|record| Matches {
         map: record.map_hash == report.map_hash,
         vehicle: record.vehicle_hash == report.vehicle_hash,
@@ -132,29 +152,42 @@ fn check(subject: &Subject, obstacles: &ObstacleMap, vehicle: &Vehicle) -> Check
         source: subject.source,
         curvature_slack,
         sample_deviation_m: subject.sample_deviation_m,
-        length_m: subject.path.length_m(),
-        n_segments: subject.path.segments().len(),
+        first_gear: first_gear(path),
+        length_m: path.length_m(),
+        n_segments: path.segments().len(),
         certificate: report,
         matches_record,
     }
+}
+
+fn first_gear(path: &CurvePath) -> Direction {
+    path.segments()
+        .first()
+        .map_or_else(Direction::default, |s| s.direction)
 }
 
 fn explain(checked: &Checked, vehicle: &Vehicle, out: &mut impl Write) -> io::Result<()> {
     let report = &checked.certificate;
     writeln!(
         out,
-        "{:<9}  {:.2} m  clearance {:.2} m at {:.2} m  curvature {:.2} of {:.2} 1/m",
+        "{:<9}  {:.2} m  clearance {} at {:.2} m{}",
         if checked.valid { "valid" } else { "invalid" },
         checked.length_m,
-        report.min_clearance_m,
+        clearance(report.min_clearance_m),
         report.tightest_s_m,
-        report.max_curvature_per_m,
-        vehicle.max_curvature_per_m(),
+        curvature(report.max_curvature_per_m, vehicle),
     )?;
     let read_as = match checked.source {
         Source::Segments => "as written".to_owned(),
         Source::Poses => reconstructed("arcs and gears from poses", checked),
-        Source::Points => reconstructed("headings, arcs and gears from points", checked),
+        Source::Points => {
+            let gear = match checked.first_gear {
+                Direction::Forward => "forward",
+                Direction::Reverse => "in reverse",
+            };
+            let what = format!("headings and arcs from points, first {gear}");
+            reconstructed(&what, checked)
+        }
     };
     writeln!(
         out,
@@ -167,8 +200,18 @@ fn explain(checked: &Checked, vehicle: &Vehicle, out: &mut impl Write) -> io::Re
     for violation in &report.violations {
         writeln!(out, "violation  {}", violation.message)?;
     }
+    let is_coarse = checked.source == Source::Points && checked.sample_deviation_m > COARSE_M;
+    if !checked.valid && is_coarse {
+        writeln!(
+            out,
+            "hint       points this coarse hardly tell the curvature; write headings or more decimals"
+        )?;
+    }
     Ok(())
 }
+
+/// Deviation above which bare points zigzag too much to tell the curvature, metres.
+const COARSE_M: f64 = 1e-4;
 
 fn reconstructed(what: &str, checked: &Checked) -> String {
     let slack_percent = checked.curvature_slack * 100.0;

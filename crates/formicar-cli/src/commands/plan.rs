@@ -49,8 +49,9 @@ pub(crate) fn run(args: &PlanArgs, out: &mut impl Write) -> Result<Ending, Failu
     let out_kinds = [("json", OutKind::Answer), ("csv", OutKind::Poses)];
     let out_file = target(args.out.as_deref(), &out_kinds)?;
     let picture_file = target(args.picture.as_deref(), &picture::KINDS)?;
-    let config = settings::load(args.config.as_deref(), &args.set, args.planner)?;
+    let settings = settings::load(args.config.as_deref(), &args.set, args.planner)?;
     let ground = ground::load(&args.ground)?;
+    let config = settings.for_motion(ground.vehicle.vehicle.motion());
     let defaults = request(args, &ground);
     let mut session = Session::new(ground, config, begun)?;
     if args.stdin {

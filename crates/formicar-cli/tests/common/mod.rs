@@ -1,5 +1,10 @@
 //! Runs the binary, and makes small maps for it.
-#![allow(dead_code, reason = "each test file uses its own part")]
+#![allow(
+    dead_code,
+    unreachable_pub,
+    reason = "each test file uses its own part"
+)]
+#![allow(clippy::unwrap_used, reason = "a test may fail where it likes")]
 
 use serde_json::Value;
 use std::fs;
@@ -47,6 +52,8 @@ pub fn formicar_in(folder: &Path, args: &[&str], input: &str) -> Run {
     let mut child = Command::new(env!("CARGO_BIN_EXE_formicar"))
         .args(args)
         .current_dir(folder)
+        // The help is as wide as the terminal says.
+        .env_remove("COLUMNS")
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())

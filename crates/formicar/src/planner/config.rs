@@ -124,6 +124,12 @@ impl PlannerConfig {
                 16.0,
                 360.0,
             ),
+            (
+                "hybrid_astar.max_iterations",
+                h.max_iterations as f64,
+                1.0,
+                1e9,
+            ),
             ("hybrid_astar.step_radii", h.step_radii, 0.05, 1.0),
             (
                 "hybrid_astar.reverse_penalty",

@@ -12,7 +12,9 @@ impl Planner {
         match status {
             Status::NoPath => self.explain_no_path(request, n_steps),
             Status::BudgetExhausted => {
-                format!("no path within the budget of {n_steps} steps; hint: raise it")
+                format!(
+                    "no path within {n_steps} steps; hint: raise the budget and hybrid_astar.max_iterations"
+                )
             }
             Status::TimedOut => format!(
                 "no path within the deadline of {deadline_ms:.1} ms ({n_steps} steps); hint: raise it"
@@ -47,7 +49,7 @@ impl Planner {
         let planner = self.config.planner;
         let hint = match planner {
             PlannerName::HybridAstar => {
-                "hint: a smaller hybrid_astar.step_radii or more angle_quantization_bins search a finer lattice; --motion reverse allows more"
+                "hint: allow reverse, other headings or a wider goal tolerance; a smaller hybrid_astar.step_radii searches a finer lattice"
             }
             PlannerName::Astar | PlannerName::Dijkstra => {
                 "hint: hybrid-astar uses the true footprint"

@@ -14,19 +14,22 @@
 //! a jump of the heading between two segments.
 //!
 //! *Points without headings.* A turn of more than 90 degrees between two steps is a cusp: there
-//! the gear changes; the first gear is forward. Between cusps the direction of motion at a point
+//! the gear changes; the first gear is the caller's to say. Between cusps the direction of motion at a point
 //! is the tangent of the circle through three consecutive points. Of the circles in which the
 //! point comes last, in the middle or first, the one whose curvature agrees best with its
-//! neighbours counts: beside a joint of two arcs this picks the circle that lies on one arc.
-//! At a cusp the headings before and after it are averaged.
+//! neighbours counts: beside a joint of two arcs this picks the circle that lies on one arc. Where
+//! none of the three agrees (arcs shorter than three steps, noise), directions are chosen that
+//! keep the biarcs around them as flat as they can be. At a cusp the headings before and after it
+//! are averaged.
 //!
 //! *Rounded files.* Samples printed with few decimals zigzag by half a unit of the last one, and
 //! an exact curve through them would be curved beyond any steering limit. So a biarc reaches over
 //! as many samples as it passes within that rounding, half a unit of the last decimal.
 
+use super::tangents::{run_end, tangents};
 use crate::geometry::{Point2, Pose2, angle_difference, wrap_angle};
 use crate::path::{CurvePath, CurveSegment, Direction};
-use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
+use std::f64::consts::{PI, SQRT_2};
 
 /// Share by which the curvature of a reconstructed path may exceed the vehicle's limit: samples
 /// do not tell the curvature between them exactly.
@@ -38,8 +41,12 @@ pub fn path_through_poses(poses: &[Pose2], rounding_m: f64) -> Option<CurvePath>
     path_through(poses, &gears, rounding_m)
 }
 
-/// The arcs and gears through points without headings, the first gear forward.
-pub fn path_through_points(points: &[Point2], rounding_m: f64) -> Option<CurvePath> {
+/// The arcs and gears through points without headings, which do not tell the first gear.
+pub fn path_through_points(
+    points: &[Point2],
+    first_gear: Direction,
+    rounding_m: f64,
+) -> Option<CurvePath> {
     let mut points = points.to_vec();
     points.dedup();
     let n_steps = points.len().checked_sub(1)?;
@@ -48,7 +55,7 @@ pub fn path_through_points(points: &[Point2], rounding_m: f64) -> Option<CurvePa
     }
     let mut headings = vec![0.0; points.len()];
     let mut gears = vec![Direction::Forward; n_steps];
-    let mut direction = Direction::Forward;
+    let mut direction = first_gear;
     let mut first = 0;
     while first < n_steps {
         let last = run_end(&points, first);
@@ -120,11 +127,18 @@ fn reach(poses: &[Pose2], gears: &[Direction], rounding_m: f64) -> (usize, Vec<C
         return (1, to(1));
     }
     let n_same_gear = gears.iter().take_while(|&&gear| gear == gears[0]).count();
-    let longest = (2..=n_same_gear.min(MAX_REACH)).rev().find_map(|i| {
+    let passing = |i: usize| {
         let curve = to(i);
         passes(&curve, &poses[1..i], rounding_m).then_some((i, curve))
-    });
-    longest.unwrap_or_else(|| (1, to(1)))
+    };
+    let longest = (2..=n_same_gear.min(MAX_REACH)).rev().find_map(passing);
+    let (i, curve) = longest.unwrap_or_else(|| (1, to(1)));
+    // A short rest before a cusp would be all rounding: the last two curves share alike.
+    let half = n_same_gear.div_ceil(2);
+    if half < i && i < n_same_gear {
+        return passing(half).unwrap_or((i, curve));
+    }
+    (i, curve)
 }
 
 /// The segments of a step: a biarc, one arc where both halves are the same, or a line that
@@ -271,65 +285,11 @@ fn nearest_on(segment: &CurveSegment, point: Point2) -> Pose2 {
     segment.pose_at(driven.clamp(0.0, segment.length_m))
 }
 
-/// The index of the last point of the run without cusps that begins at `first`.
-fn run_end(points: &[Point2], first: usize) -> usize {
-    let is_cusp = |i: usize| {
-        let (before, after) = (points[i] - points[i - 1], points[i + 1] - points[i]);
-        before.cross(after).atan2(before.dot(after)).abs() > FRAC_PI_2
-    };
-    (first + 1..points.len() - 1)
-        .find(|&i| is_cusp(i))
-        .unwrap_or(points.len() - 1)
-}
-
-/// The direction of motion at each point of a run without cusps.
-fn tangents(run: &[Point2]) -> Vec<f64> {
-    let chord = |i: usize| run[i + 1] - run[i];
-    if run.len() == 2 {
-        return vec![chord(0).angle(); 2];
-    }
-    // Circle j goes through points j, j + 1, j + 2.
-    let n_circles = run.len() - 2;
-    let bend = |j: usize| {
-        let (a, b) = (chord(j), chord(j + 1));
-        2.0 * a.cross(b) / (a.norm() * b.norm() * (a + b).norm())
-    };
-    let bends: Vec<f64> = (0..n_circles).map(bend).collect();
-    let roughness = |j: usize| {
-        let to =
-            |other: Option<&f64>| other.map_or(f64::INFINITY, |other| (other - bends[j]).abs());
-        to(j.checked_sub(1).and_then(|i| bends.get(i))).min(to(bends.get(j + 1)))
-    };
-    let tangent = |i: usize| {
-        let circles = i.saturating_sub(2)..=i.min(n_circles - 1);
-        // The middle one first: it wins ties.
-        let middle = i.saturating_sub(1).min(n_circles - 1);
-        let best = std::iter::once(middle)
-            .chain(circles)
-            .min_by(|&a, &b| roughness(a).total_cmp(&roughness(b)))
-            .unwrap_or(middle);
-        tangent_on_circle(&run[best..best + 3], i - best)
-    };
-    (0..run.len()).map(tangent).collect()
-}
-
-/// The direction of motion at one of three points of a circle.
-fn tangent_on_circle(three: &[Point2], i: usize) -> f64 {
-    let (a, b) = (three[1] - three[0], three[2] - three[1]);
-    let turn = a.cross(b).atan2(a.dot(b));
-    // A chord and the tangent at its end enclose half the arc's turn. Both halves add up to the
-    // turn from chord to chord, and sin(half a) / |a| = sin(half b) / |b| on one circle.
-    let half_a = turn.sin().atan2(b.norm() / a.norm() + turn.cos());
-    match i {
-        0 => a.angle() - half_a,
-        1 => a.angle() + half_a,
-        _ => b.angle() + (turn - half_a),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
+    use std::f64::consts::FRAC_PI_2;
 
     /// Left, straight, right, then back in reverse to the left.
     fn known() -> CurvePath {
@@ -397,7 +357,7 @@ mod tests {
 
     #[test]
     fn recovers_arcs_and_gears_from_points() {
-        let found = path_through_points(&points(&known()), 0.0).unwrap();
+        let found = path_through_points(&points(&known()), Direction::Forward, 0.0).unwrap();
         assert_joined(&found);
         assert_same(&found, &known(), 1e-6);
     }
@@ -427,7 +387,7 @@ mod tests {
             largest_curvature(&found)
         );
         let points: Vec<_> = poses.iter().map(|p| p.position()).collect();
-        let found = path_through_points(&points, 0.0).unwrap();
+        let found = path_through_points(&points, Direction::Forward, 0.0).unwrap();
         assert_joined(&found);
         assert!(
             largest_curvature(&found) <= 0.8 * 1.001,
@@ -474,11 +434,13 @@ mod tests {
 
     #[test]
     fn few_samples_are_no_trouble() {
-        assert_eq!(path_through_points(&[], 0.0), None);
+        assert_eq!(path_through_points(&[], Direction::Forward, 0.0), None);
         assert_eq!(path_through_poses(&[], 0.0), None);
         let p = Point2::new(1.0, 2.0);
         assert_eq!(
-            path_through_points(&[p, p, p], 0.0).unwrap().length_m(),
+            path_through_points(&[p, p, p], Direction::Forward, 0.0)
+                .unwrap()
+                .length_m(),
             0.0
         );
         assert_eq!(
@@ -488,14 +450,37 @@ mod tests {
                 .heading,
             1.0
         );
-        let line = path_through_points(&[p, Point2::new(2.0, 2.0)], 0.0).unwrap();
+        let line =
+            path_through_points(&[p, Point2::new(2.0, 2.0)], Direction::Forward, 0.0).unwrap();
         assert!((line.length_m() - 1.0).abs() < 1e-12);
         let there_and_back = [p, Point2::new(2.0, 2.0), p];
-        let path = path_through_points(&there_and_back, 0.0).unwrap();
+        let path = path_through_points(&there_and_back, Direction::Forward, 0.0).unwrap();
         assert_eq!(
             path.segments().last().unwrap().direction,
             Direction::Reverse
         );
         assert!(path.end().position().distance(p) < 1e-12);
+    }
+
+    proptest! {
+        #[test]
+        fn no_path_is_read_as_more_curved_than_it_is(
+            motions in prop::collection::vec((0..3_i8, 0.25..2.0, prop::bool::weighted(0.2)), 1..8),
+            heading in -3.0..3.0,
+        ) {
+            let mut path = CurvePath::new(Pose2::new(1.0, 2.0, heading));
+            let mut gear = Direction::Forward;
+            for (bend, length_m, changes_gear) in motions {
+                gear = if changes_gear { other(gear) } else { gear };
+                path.push(0.8 * f64::from(bend - 1), length_m, gear);
+            }
+            let from_poses = path_through_poses(&poses(&path), 0.0).unwrap();
+            let from_points = path_through_points(&points(&path), Direction::Forward, 0.0).unwrap();
+            for found in [from_poses, from_points] {
+                assert_joined(&found);
+                prop_assert!(largest_curvature(&found) <= 0.8 * 1.001);
+                prop_assert!((found.length_m() - path.length_m()).abs() < 0.01);
+            }
+        }
     }
 }

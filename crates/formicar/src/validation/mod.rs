@@ -12,6 +12,7 @@ mod report;
 mod samples;
 mod shape;
 mod swept;
+mod tangents;
 
 pub use foreign::{FOREIGN_CURVATURE_SLACK, path_through_points, path_through_poses};
 pub use judge::{judge, judge_path};

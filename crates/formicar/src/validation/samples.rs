@@ -2,7 +2,7 @@
 
 use super::foreign::{deviation_m, path_through_points, path_through_poses};
 use crate::geometry::{Point2, Pose2};
-use crate::path::CurvePath;
+use crate::path::{CurvePath, Direction};
 use thiserror::Error;
 
 /// The sampled positions of a path, with or without headings.
@@ -113,10 +113,11 @@ impl Samples {
         deviation_m(self.rounding_m)
     }
 
-    /// The arcs and gears through the samples.
-    pub fn path(&self) -> Option<CurvePath> {
+    /// The arcs and gears through the samples; headings tell the first gear, without them it is
+    /// `first_gear`.
+    pub fn path(&self, first_gear: Direction) -> Option<CurvePath> {
         let Some(headings) = &self.headings else {
-            return path_through_points(&self.points, self.rounding_m);
+            return path_through_points(&self.points, first_gear, self.rounding_m);
         };
         let poses: Vec<_> = self
             .points
@@ -254,7 +255,7 @@ mod tests {
         #[test]
         fn no_text_makes_it_panic(text in "[-0-9.,;eE# xy\n]{0,60}") {
             if let Ok(samples) = Samples::from_csv(&text) {
-                prop_assert!(samples.path().is_some());
+                prop_assert!(samples.path(Direction::Reverse).is_some());
             }
         }
     }

@@ -11,6 +11,9 @@ pub struct HybridAstarConfig {
     /// faster.
     #[schemars(range(min = 1.0, max = 10.0))]
     pub weight: f64,
+    /// Search steps after which to give up, 1 to 10^9; a request's budget may be lower.
+    #[schemars(range(min = 1, max = 1_000_000_000))]
+    pub max_iterations: u64,
     /// Number of headings of the lattice, 16 to 360.
     #[schemars(range(min = 16, max = 360))]
     pub angle_quantization_bins: u32,
@@ -40,6 +43,7 @@ impl Default for HybridAstarConfig {
     fn default() -> Self {
         Self {
             weight: 1.5,
+            max_iterations: 1_000_000,
             angle_quantization_bins: 72,
             step_radii: 0.25,
             reverse_penalty: 2.0,

@@ -11,7 +11,7 @@ mod guide;
 mod open_list;
 mod problem;
 mod shots;
-mod state_set;
+mod state_costs;
 mod tree;
 
 pub use config::HybridAstarConfig;
@@ -21,7 +21,7 @@ use crate::geometry::{Arc, Pose2};
 use crate::progress::{Limits, Status};
 use guide::Guide;
 use open_list::{Entry, OpenList, Step};
-use state_set::StateSet;
+use state_costs::StateCosts;
 use tree::{Node, Tree};
 
 /// Searches a drivable chain of arcs from start to goal, in grid coordinates.
@@ -35,11 +35,24 @@ pub fn hybrid_astar(
     problem: &HybridProblem,
     limits: &mut Limits,
 ) -> Result<(Pose2, Vec<Arc>), Status> {
-    let inflations_m = problem.inflations_m();
-    for (stage, &inflation_m) in inflations_m.iter().enumerate() {
-        let last = stage + 1 == inflations_m.len();
+    let fine = problem.refined();
+    let [turning, wide, sure] = problem.inflations_m();
+    let stages = [
+        (problem, turning),
+        (problem, wide),
+        (problem, sure),
+        (&fine, wide),
+        (&fine, sure),
+    ];
+    let most_steps = problem.config().max_iterations;
+    for (stage, (problem, inflation_m)) in stages.into_iter().enumerate() {
+        let left = most_steps.saturating_sub(limits.n_steps());
         // A guide that leads astray must not cost all the time there is.
-        let patience = if last { u64::MAX } else { PATIENCE_STEPS };
+        let patience = if stage + 1 == stages.len() {
+            left
+        } else {
+            left.min(PATIENCE_STEPS)
+        };
         let Some(guide) = Guide::new(problem, inflation_m, limits)? else {
             continue;
         };
@@ -48,10 +61,14 @@ pub fn hybrid_astar(
             other => return other,
         }
     }
-    Err(Status::NoPath)
+    if limits.n_steps() >= most_steps {
+        Err(Status::BudgetExhausted)
+    } else {
+        Err(Status::NoPath)
+    }
 }
 
-/// Steps after which the next guide is tried.
+/// Steps after which the next guide, or the finer lattice, is tried.
 const PATIENCE_STEPS: u64 = 50_000;
 
 /// The state of one search.
@@ -59,7 +76,7 @@ struct Search<'a> {
     problem: &'a HybridProblem<'a>,
     guide: &'a Guide<'a>,
     tree: Tree,
-    closed: StateSet,
+    states: StateCosts,
     open: OpenList,
 }
 
@@ -69,7 +86,7 @@ impl<'a> Search<'a> {
             problem,
             guide,
             tree: Tree::default(),
-            closed: StateSet::new(),
+            states: StateCosts::new(),
             open: OpenList::default(),
         }
     }
@@ -109,14 +126,19 @@ impl<'a> Search<'a> {
     fn drive(&mut self, parent: u32, step: u16) {
         let from = self.tree.node(parent);
         let mut node = self.problem.arrive(parent, from, step);
-        if !self.closed.vacant(self.problem.key(&node)) {
+        if !self.states.improves(self.problem.key(&node), node.cost) {
             return;
         }
         let Some(cost) = self.problem.true_cost(from, from.pose, node.arc) else {
             return;
         };
         node.cost = from.cost + cost;
+        let key = self.problem.key(&node);
+        if !self.states.improves(key, node.cost) {
+            return;
+        }
         if let Some(estimate) = self.estimate(&node) {
+            self.states.reach(key, node.cost);
             let node = self.tree.add(node);
             self.open.push(Entry {
                 node,
@@ -129,10 +151,10 @@ impl<'a> Search<'a> {
     fn expand(&mut self, id: u32) {
         let node = self.tree.node(id);
         let (key, pose) = (self.problem.key(node), node.pose);
-        if !self.closed.vacant(key) {
+        if self.states.is_closed(key) {
             return;
         }
-        self.closed.insert(key);
+        self.states.close(key);
         if self.guide.wants_shot(pose, id) {
             self.open_shots(id);
         }
@@ -149,7 +171,9 @@ impl<'a> Search<'a> {
         let from = *self.tree.node(parent);
         for step in 0..self.problem.n_moves(&from) {
             let node = self.problem.arrive(parent, &from, step);
-            if self.problem.hits(node.pose) || !self.closed.vacant(self.problem.key(&node)) {
+            if self.problem.hits(node.pose)
+                || !self.states.improves(self.problem.key(&node), node.cost)
+            {
                 continue;
             }
             if let Some(estimate) = self.estimate(&node) {

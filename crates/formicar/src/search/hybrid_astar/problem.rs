@@ -8,9 +8,21 @@ use crate::map::Cell;
 use crate::scenario::{GoalTolerance, MotionMode, Request};
 use crate::vehicle::{Gears, PrimitiveSet, Vehicle, VehicleError};
 
+/// A step leads out of its state: it is longer than the state's diagonal.
+const STATES_PER_STEP: f64 = 1.5;
+
+fn gears(request: &Request) -> Gears {
+    match request.motion {
+        MotionMode::Forward => Gears::Forward,
+        MotionMode::Reverse => Gears::Both,
+    }
+}
+
 /// A request on a map for a vehicle, in grid coordinates.
+#[derive(Clone)]
 pub struct HybridProblem<'a> {
     obstacles: &'a ObstacleMap,
+    vehicle: &'a Vehicle,
     body: Body,
     config: &'a HybridAstarConfig,
     lattice: PrimitiveSet,
@@ -29,45 +41,53 @@ impl<'a> HybridProblem<'a> {
     /// A vehicle that does not steer.
     pub fn new(
         obstacles: &'a ObstacleMap,
-        vehicle: &Vehicle,
+        vehicle: &'a Vehicle,
         config: &'a HybridAstarConfig,
         request: &'a Request,
     ) -> Result<Self, VehicleError> {
-        let gears = match request.motion {
-            MotionMode::Forward => Gears::Forward,
-            MotionMode::Reverse => Gears::Both,
-        };
         let resolution_m = obstacles.frame().resolution_m();
         let radius_m = vehicle.min_turning_radius_m();
         // A cell of the map may be larger than the turning circle: half of that is the longest.
-        let longest_m = 3.0 * radius_m;
         let step_m = (config.step_radii * radius_m)
             .max(1.5 * resolution_m)
-            .min(longest_m);
-        let lattice = PrimitiveSet::new(
-            vehicle,
-            config.angle_quantization_bins as usize,
-            step_m,
-            gears,
-        )?;
-        let to_grid = |poses: Vec<Pose2>| poses.into_iter().map(|p| obstacles.frame().to_grid(p));
+            .min(3.0 * radius_m);
+        let n_headings = config.angle_quantization_bins as usize;
         let mut problem = Self {
             obstacles,
+            vehicle,
             body: Body::new(vehicle),
             config,
-            lattice,
-            state_m: step_m / 1.5,
+            lattice: PrimitiveSet::new(vehicle, n_headings, step_m, gears(request))?,
+            state_m: step_m / STATES_PER_STEP,
             radius_m,
             axle_inradius_m: vehicle.footprint().inradius().max(0.0),
             request,
             starts: Vec::new(),
             goals: Vec::new(),
         };
+        let to_grid = |poses: Vec<Pose2>| poses.into_iter().map(|p| obstacles.frame().to_grid(p));
         let stands_free = |pose: &Pose2| obstacles.is_free(&problem.body, &Drive::at(*pose));
         let starts = to_grid(request.start_poses()).filter(stands_free).collect();
         let goals = to_grid(request.goal_poses()).filter(stands_free).collect();
         (problem.starts, problem.goals) = (starts, goals);
         Ok(problem)
+    }
+
+    /// The same query on a lattice of steps a quarter as long and headings four times as dense,
+    /// for places where a vehicle must shunt.
+    pub(super) fn refined(&self) -> Self {
+        let n_headings = (4 * self.lattice.n_headings()).min(360);
+        let step_m =
+            (0.25 * self.state_m * STATES_PER_STEP).max(self.obstacles.frame().resolution_m());
+        let lattice = PrimitiveSet::new(self.vehicle, n_headings, step_m, gears(self.request));
+        match lattice {
+            Ok(lattice) => Self {
+                lattice,
+                state_m: step_m / STATES_PER_STEP,
+                ..self.clone()
+            },
+            Err(_) => self.clone(),
+        }
     }
 
     /// Radii by which to grow obstacles for the goal field, most first: halfway to what the body
