@@ -23,6 +23,8 @@ pub(crate) struct Cli {
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    /// Plan on the built-in maps: a table here, pictures and a page in a folder.
+    Demo(DemoArgs),
     /// Plan a path that the vehicle can drive.
     Plan(Box<PlanArgs>),
     /// Judge a path, ours or foreign; exit code 3 where it cannot be driven.
@@ -97,6 +99,18 @@ pub(crate) struct Polygon(pub(crate) Vec<Point2>);
 
 fn parse_polygon(text: &str) -> Result<Polygon, String> {
     values::polygon(text).map(Polygon)
+}
+
+/// Flags of `demo`.
+#[derive(Args, Debug)]
+pub(crate) struct DemoArgs {
+    /// Folder of the page, made where it does not exist; files of an earlier demo are replaced.
+    #[arg(long, value_name = "DIR", default_value = "./formicar-demo", value_hint = ValueHint::DirPath)]
+    pub(crate) out: PathBuf,
+
+    /// Only runs whose name holds this word; may be repeated.
+    #[arg(long, value_name = "WORD", hide = true)]
+    pub(crate) only: Vec<String>,
 }
 
 /// Flags of `plan`.

@@ -2,6 +2,7 @@
 
 mod bench;
 mod check;
+mod demo;
 mod list;
 mod map;
 mod meta;
@@ -18,6 +19,7 @@ use std::io::Write;
 /// Carries out a command; `out` is stdout.
 pub(crate) fn run(command: &Command, out: &mut impl Write) -> Result<Ending, Failure> {
     match command {
+        Command::Demo(args) => demo::run(args, out),
         Command::Plan(args) => plan::run(args, out),
         Command::Check(args) => check::run(args, out),
         Command::Bench(args) => bench::run(args, out),

@@ -14,6 +14,7 @@ use formicar::numeric::Seed;
 use formicar::planner::{
     Answer, AnswerContext, Outcome, PlanError, Planner, PlannerConfig, RequestDocument, Timing,
 };
+use formicar::render::Layout;
 use std::io::Write;
 use std::sync::Arc;
 use std::time::Instant;
@@ -185,7 +186,12 @@ fn write_files(
     }
     if let (Some(target), Ok(outcome)) = (picture, &answered.result) {
         let ground = &session.ground;
-        let image = picture::of(ground, &answered.answer, outcome);
+        let image = picture::of(
+            (ground, &session.obstacles),
+            &answered.answer,
+            outcome,
+            Layout::Page,
+        );
         target.write(&picture::encode(&image, target.kind)?)?;
     }
     Ok(())
