@@ -15,10 +15,10 @@ impl Square {
         [(-h, -h), (h, -h), (h, h), (-h, h)].map(|(x, y)| Point2::new(c.x + x, c.y + y))
     }
 
-    pub(super) fn distance(&self, p: Point2) -> f64 {
+    pub(super) fn squared_distance(&self, p: Point2) -> f64 {
         let dx = ((p.x - self.center.x).abs() - self.half).max(0.0);
         let dy = ((p.y - self.center.y).abs() - self.half).max(0.0);
-        (dx * dx + dy * dy).sqrt()
+        dx * dx + dy * dy
     }
 }
 
@@ -28,16 +28,22 @@ pub(super) fn edges(corners: &[Point2]) -> impl Iterator<Item = (Point2, Point2)
     (0..n).map(move |i| (corners[i], corners[(i + 1) % n]))
 }
 
-/// Distance from a point to a segment, which may be a single point.
-pub(super) fn point_segment(p: Point2, a: Point2, b: Point2) -> f64 {
-    let d = b - a;
+/// Squared distance from a point to a segment, which may be a single point.
+fn squared_point_segment(p: Point2, a: Point2, b: Point2) -> f64 {
+    let (d, ray) = (b - a, p - a);
     let length2 = d.dot(d);
     let t = if length2 > 0.0 {
-        ((p - a).dot(d) / length2).clamp(0.0, 1.0)
+        (ray.dot(d) / length2).clamp(0.0, 1.0)
     } else {
         0.0
     };
-    p.distance(a + d * t)
+    let apart = ray - d * t;
+    apart.dot(apart)
+}
+
+/// Distance from a point to a segment, which may be a single point.
+pub(super) fn point_segment(p: Point2, a: Point2, b: Point2) -> f64 {
+    squared_point_segment(p, a, b).sqrt()
 }
 
 /// Euclidean distance between a convex polygon (counter-clockwise) and a square; 0 when they
@@ -46,21 +52,22 @@ pub(super) fn polygon_square(corners: &[Point2], square: &Square) -> f64 {
     if penetration(corners, square) >= 0.0 {
         return 0.0;
     }
-    let own = corners
-        .iter()
-        .map(|&p| square.distance(p))
-        .fold(f64::INFINITY, f64::min);
-    square
-        .corners()
-        .iter()
-        .fold(own, |least, &q| least.min(point_boundary(q, corners)))
+    let own = corners.iter().fold(f64::INFINITY, |least, &p| {
+        square.squared_distance(p).min(least)
+    });
+    let theirs = |least: f64, &q: &Point2| squared_point_boundary(q, corners).min(least);
+    square.corners().iter().fold(own, theirs).sqrt()
 }
 
 /// Distance from a point outside to the boundary of a polygon.
 pub(super) fn point_boundary(p: Point2, corners: &[Point2]) -> f64 {
-    edges(corners)
-        .map(|(a, b)| point_segment(p, a, b))
-        .fold(f64::INFINITY, f64::min)
+    squared_point_boundary(p, corners).sqrt()
+}
+
+fn squared_point_boundary(p: Point2, corners: &[Point2]) -> f64 {
+    edges(corners).fold(f64::INFINITY, |least, (a, b)| {
+        squared_point_segment(p, a, b).min(least)
+    })
 }
 
 /// Depth of the overlap by separating axes: how far one must move to come free; negative where
@@ -130,7 +137,7 @@ mod tests {
             let sampled = placed
                 .edges()
                 .flat_map(|(a, b)| (0..=200).map(move |i| a.lerp(b, f64::from(i) / 200.0)))
-                .map(|p| UNIT.distance(p))
+                .map(|p| UNIT.squared_distance(p).sqrt())
                 .fold(f64::INFINITY, f64::min);
             let inside = placed.contains(Point2::default());
             let sampled = if inside { 0.0 } else { sampled };

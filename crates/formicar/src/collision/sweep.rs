@@ -2,7 +2,7 @@
 
 use super::Body;
 use super::arc::Track;
-use super::convex::{Square, edges, penetration, point_boundary, polygon_square};
+use super::convex::{Square, edges, penetration, point_segment, polygon_square};
 use crate::geometry::{Point2, Pose2};
 use std::cell::OnceCell;
 use std::f64::consts::{FRAC_PI_2, SQRT_2};
@@ -109,9 +109,15 @@ struct Turning {
     /// The whole turn, as a rotation.
     rotation: Point2,
     sense: f64,
-    /// The ring about the center in which the body stays.
-    inner_radius: f64,
-    outer_radius: f64,
+    /// The ring about the center in which the body stays, and those of its edges.
+    ring: Ring,
+    edge_rings: Vec<Ring>,
+}
+
+/// Distances from the center of a turn.
+struct Ring {
+    inner: f64,
+    outer: f64,
 }
 
 impl<'a> Sweep<'a> {
@@ -216,14 +222,23 @@ impl Turning {
             .start
             .transform(Point2::new(0.0, 1.0 / drive.curvature_per_m));
         let first = placed(&body.corners, drive.start);
+        let edge_rings: Vec<Ring> = edges(&first)
+            .map(|(a, b)| Ring {
+                inner: point_segment(center, a, b),
+                outer: a.distance(center).max(b.distance(center)),
+            })
+            .collect();
         let around_center = penetration(&first, &Square { center, half: 0.0 }) >= 0.0;
+        let inner = edge_rings
+            .iter()
+            .fold(f64::INFINITY, |r, ring| ring.inner.min(r));
+        let outer = edge_rings.iter().fold(0.0, |r, ring| ring.outer.max(r));
         Self {
-            inner_radius: if around_center {
-                0.0
-            } else {
-                point_boundary(center, &first)
+            ring: Ring {
+                inner: if around_center { 0.0 } else { inner },
+                outer,
             },
-            outer_radius: first.iter().fold(0.0, |r, &p| p.distance(center).max(r)),
+            edge_rings,
             last: placed(&body.corners, drive.pose_at(1.0)),
             first,
             center,
@@ -236,7 +251,7 @@ impl Turning {
     /// corners of the square, seen from the body, past edges of the body.
     fn distance(&self, square: &Square, limit: f64) -> f64 {
         let (away, around) = (square.center.distance(self.center), square.half * SQRT_2);
-        let off_ring = (away - around - self.outer_radius).max(self.inner_radius - away - around);
+        let off_ring = (away - around - self.ring.outer).max(self.ring.inner - away - around);
         if off_ring >= limit {
             return limit;
         }
@@ -244,12 +259,22 @@ impl Turning {
         if ends == 0.0 {
             return 0.0;
         }
+        let least = ends.min(limit);
         let corners = square.corners();
-        let outward = self.tracks().map(|track| nearest(&track, &corners));
-        let inward = corners
-            .iter()
-            .map(|&q| nearest(&self.seen_from_body(q), &self.first));
-        outward.chain(inward).fold(ends, f64::min)
+        let passes = |track: &Track| (away - track.radius).abs() - around < least;
+        let outward = self.tracks().filter(passes).fold(least, |least, track| {
+            edges(&corners).fold(least, |least, edge| nearest(&track, edge, least))
+        });
+        corners.iter().fold(outward, |least, &q| {
+            let track = self.seen_from_body(q);
+            let near = |ring: &Ring| {
+                ring.inner - least < track.radius && track.radius < ring.outer + least
+            };
+            let edges = edges(&self.first)
+                .zip(&self.edge_rings)
+                .filter(|(_, ring)| near(ring));
+            edges.fold(least, |least, (edge, _)| nearest(&track, edge, least))
+        })
     }
 
     fn tracks(&self) -> impl Iterator<Item = Track> + '_ {
@@ -277,12 +302,10 @@ impl Turning {
     }
 }
 
-/// Distance from a track's inner points to the boundary of a polygon; the track's ends are the
-/// caller's.
-fn nearest(track: &Track, polygon: &[Point2]) -> f64 {
-    edges(polygon).fold(f64::INFINITY, |least, (a, b)| {
-        least.min(track.beside(a)).min(track.across(a, b))
-    })
+/// The lesser of a distance and that from a track's inner points to an edge; the track's ends are
+/// the caller's.
+fn nearest(track: &Track, (a, b): (Point2, Point2), least: f64) -> f64 {
+    least.min(track.beside(a)).min(track.across(a, b))
 }
 
 fn placed(corners: &[Point2], pose: Pose2) -> Vec<Point2> {
