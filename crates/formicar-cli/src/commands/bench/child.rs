@@ -22,8 +22,9 @@ use std::time::Instant;
 pub(crate) fn run_one(job: &str, out: &mut impl Write) -> Result<Ending, Failure> {
     let begun = Instant::now();
     let job: Job = serde_json::from_str(job).context("the run")?;
-    let config = settings::load(None, &job.set, Some(job.planner))?;
+    let settings = settings::load(None, &job.set, Some(job.planner))?;
     let ground = ground::load(&job.ground())?;
+    let config = settings.for_motion(ground.vehicle.vehicle.motion());
     let request = job.request(&ground)?;
     let mut session = Session::new(ground, config, begun)?;
     let answered = session.ask(&request, &RequestDocument::default(), Seed(job.seed));
