@@ -1,4 +1,5 @@
 //! `map`: info, convert, generate, clearance.
+#![allow(clippy::unwrap_used, reason = "a test may fail where it likes")]
 
 mod common;
 
