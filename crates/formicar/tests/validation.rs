@@ -10,7 +10,7 @@ use formicar::vehicle::Vehicle;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 fn yard() -> OccupancyGrid {
-    let frame = GridFrame::new(100, 60, 0.1, Pose2::new(-2.0, 3.0, 0.0)).unwrap();
+    let frame = GridFrame::new(100, 60, 0.1, Pose2::new(-2.0, 3.0, 0.0)).expect("a valid frame");
     let mut map = OccupancyGrid::free(frame);
     for col in 40..50 {
         map.set(formicar::map::Cell::new(col, 20), 100);

@@ -1,6 +1,7 @@
 //! From a request to a certified path: search, curve, judge, metrics.
 
 use super::{NotFound, Outcome, Plan, PlanError, Planner, PlannerName};
+use crate::collision::ObstacleMap;
 use crate::geometry::{Arc, Point2, Pose2};
 use crate::map::{BitGrid, Cell, MoveMasks};
 use crate::metrics::{ClearanceSummary, PathMetrics};
@@ -12,7 +13,7 @@ use crate::search::{
     AstarWorkspace, GoalField, GridSearch, HybridProblem, SearchError, astar, hybrid_astar,
 };
 use crate::validation::judge;
-use crate::vehicle::Motion;
+use crate::vehicle::{Motion, Vehicle};
 
 /// What a search found, before it is judged.
 pub(super) struct Found {
@@ -87,16 +88,21 @@ impl Planner {
             &mut Limits,
         ) -> Result<GridSearch, SearchError>,
     ) -> Result<Found, SearchError> {
-        let (moves, workspace) = match self.grid.take() {
-            Some(ready) => self.grid.insert(ready),
-            None => {
-                let rule = self.config.grid_search.diagonal_rule;
-                let ready = (MoveMasks::new(&self.blocked(), rule), AstarWorkspace::new());
-                self.grid.insert(ready)
-            }
-        };
+        let Self {
+            obstacles,
+            vehicle,
+            config,
+            grid,
+        } = self;
+        let (moves, workspace) = grid.get_or_insert_with(|| {
+            let moves = MoveMasks::new(
+                &blocked(obstacles, vehicle),
+                config.grid_search.diagonal_rule,
+            );
+            (moves, AstarWorkspace::new())
+        });
         limits.tell(&Event::SearchStarted);
-        let frame = self.obstacles.frame();
+        let frame = obstacles.frame();
         let cell = |pose: Pose2| frame.cell_at(pose.position()).unwrap_or_default();
         let found = search(
             moves,
@@ -109,18 +115,6 @@ impl Planner {
             path: CurvePath::from_polyline(&points),
             grid: Some(found),
         })
-    }
-
-    /// Cells on which the vehicle's middle may not be: within half its width of an obstacle.
-    fn blocked(&self) -> BitGrid {
-        let (low, high) = self.vehicle.footprint().bounds();
-        let half_width_cells = 0.5 * (high.y - low.y) / self.obstacles.frame().resolution_m();
-        let limit = f64::from(self.obstacles.distance().truncation_cells()) - 0.5;
-        let grown = self
-            .obstacles
-            .distance()
-            .within(half_width_cells.min(limit));
-        grown.unwrap_or_else(|| self.obstacles.lethal().clone())
     }
 
     /// Lets the judge decide, and says why where there is no path.
@@ -187,6 +181,15 @@ impl Planner {
             }
         }
     }
+}
+
+/// Cells on which the vehicle's middle may not be: within half its width of an obstacle.
+fn blocked(obstacles: &ObstacleMap, vehicle: &Vehicle) -> BitGrid {
+    let (low, high) = vehicle.footprint().bounds();
+    let half_width_cells = 0.5 * (high.y - low.y) / obstacles.frame().resolution_m();
+    let limit = f64::from(obstacles.distance().truncation_cells()) - 0.5;
+    let grown = obstacles.distance().within(half_width_cells.min(limit));
+    grown.unwrap_or_else(|| obstacles.lethal().clone())
 }
 
 fn astar_path(

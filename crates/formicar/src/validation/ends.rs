@@ -16,75 +16,79 @@ pub(super) struct Ends {
 }
 
 pub(super) fn check(vehicle: &Vehicle, request: &Request, path: &CurvePath) -> Ends {
-    let holonomic = vehicle.motion() == Motion::Point;
-    let end = path.end();
-    let goal_error_m = end.position().distance(request.goal.position());
-    let goal_error_rad = match (holonomic, request.goal_heading) {
-        (true, _) | (_, GoalHeading::Any) => 0.0,
-        (_, GoalHeading::Exact) => turn(end, request.goal),
-        (_, GoalHeading::Bidirectional) => {
-            turn(end, request.goal).min(PI - turn(end, request.goal))
-        }
+    let (start, end) = (path.start(), path.end());
+    let (start_error_m, start_error_rad) = start_error(vehicle, request, start);
+    let (goal_error_m, goal_error_rad) = goal_error(vehicle, request, end);
+    let at_start = Place {
+        kind: ViolationKind::Start,
+        s_m: 0.0,
+        pose: start,
     };
-    let start = path.start();
-    let start_error_m = start.position().distance(request.start.position());
-    let start_error_rad = match (holonomic, request.start_heading) {
-        (true, _) | (_, StartHeading::Any) => 0.0,
-        (_, StartHeading::Exact) => turn(start, request.start),
+    let at_goal = Place {
+        kind: ViolationKind::Goal,
+        s_m: path.length_m(),
+        pose: end,
     };
-    let length_m = path.length_m();
     let tolerance = request.goal_tolerance;
-    let off = |kind, s_m, pose, amount: f64, limit: f64, what: &str| {
-        (amount > limit).then(|| Violation {
-            kind,
-            s_m,
-            pose,
-            amount,
-            limit,
-            message: format!("{what} by {amount:.6}; the limit is {limit}"),
-        })
-    };
-    let (at_start, at_goal) = (ViolationKind::Start, ViolationKind::Goal);
     let violations = [
-        off(
-            at_start,
-            0.0,
-            start,
-            start_error_m,
-            JOINT_TOLERANCE,
-            "the path misses the start (metres)",
-        ),
-        off(
-            at_start,
-            0.0,
-            start,
-            start_error_rad,
-            JOINT_TOLERANCE,
-            "the path misses the start heading (radians)",
-        ),
-        off(
-            at_goal,
-            length_m,
-            end,
-            goal_error_m,
-            tolerance.xy_m,
-            "the path misses the goal (metres)",
-        ),
-        off(
-            at_goal,
-            length_m,
-            end,
-            goal_error_rad,
-            tolerance.yaw_rad,
-            "the path misses the goal heading (radians)",
-        ),
+        at_start.miss("start", start_error_m, JOINT_TOLERANCE, "m"),
+        at_start.miss("start heading", start_error_rad, JOINT_TOLERANCE, "rad"),
+        at_goal.miss("goal", goal_error_m, tolerance.xy_m, "m"),
+        at_goal.miss("goal heading", goal_error_rad, tolerance.yaw_rad, "rad"),
         forbidden_gear(request, path),
     ];
+    let violations = violations.into_iter().flatten().collect();
     Ends {
         goal_error_m,
         goal_error_rad,
-        violations: violations.into_iter().flatten().collect(),
+        violations,
     }
+}
+
+/// An end of the path.
+struct Place {
+    kind: ViolationKind,
+    s_m: f64,
+    pose: Pose2,
+}
+
+impl Place {
+    fn miss(&self, what: &str, amount: f64, limit: f64, unit: &str) -> Option<Violation> {
+        let message = || {
+            format!("the path misses the {what} by {amount:.6} {unit}; the limit is {limit} {unit}")
+        };
+        (amount > limit).then(|| Violation {
+            kind: self.kind,
+            s_m: self.s_m,
+            pose: self.pose,
+            amount,
+            limit,
+            message: message(),
+        })
+    }
+}
+
+/// Distance and heading difference from the start; a point has no heading.
+fn start_error(vehicle: &Vehicle, request: &Request, start: Pose2) -> (f64, f64) {
+    let error_rad = match (vehicle.motion(), request.start_heading) {
+        (Motion::Point, _) | (_, StartHeading::Any) => 0.0,
+        (Motion::Car, StartHeading::Exact) => turn(start, request.start),
+    };
+    (
+        start.position().distance(request.start.position()),
+        error_rad,
+    )
+}
+
+/// Distance and heading difference from the goal; a point has no heading.
+fn goal_error(vehicle: &Vehicle, request: &Request, end: Pose2) -> (f64, f64) {
+    let off = turn(end, request.goal);
+    let error_rad = match (vehicle.motion(), request.goal_heading) {
+        (Motion::Point, _) | (_, GoalHeading::Any) => 0.0,
+        (Motion::Car, GoalHeading::Exact) => off,
+        (Motion::Car, GoalHeading::Bidirectional) => off.min(PI - off),
+    };
+    (end.position().distance(request.goal.position()), error_rad)
 }
 
 fn turn(a: Pose2, b: Pose2) -> f64 {

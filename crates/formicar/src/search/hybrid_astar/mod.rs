@@ -60,7 +60,7 @@ pub fn hybrid_astar(
         let left = most_steps.saturating_sub(limits.n_steps());
         match Search::new(problem, &guide).run(patience.min(left), limits) {
             Err(Status::NoPath) => {}
-            ended => return ended.map(|path| problem.from_start(path)),
+            ended => return ended.map(|path| problem.in_driving_order(path)),
         }
     }
     if limits.n_steps() >= most_steps {
