@@ -1,5 +1,6 @@
 //! Commands and flags.
 
+use crate::commands::{BenchArgs, MapArgs};
 use crate::values;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use formicar::geometry::{Point2, Pose2};
@@ -22,10 +23,16 @@ pub(crate) struct Cli {
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    /// Plan on the built-in maps: a table here, pictures and a page in a folder.
+    Demo(DemoArgs),
     /// Plan a path that the vehicle can drive.
     Plan(Box<PlanArgs>),
     /// Judge a path, ours or foreign; exit code 3 where it cannot be driven.
     Check(CheckArgs),
+    /// Run planners on scenarios, one process per run: a table of results and a summary.
+    Bench(Box<BenchArgs>),
+    /// Describe, convert and generate maps; measure the way between two places.
+    Map(MapArgs),
     /// List planners, built-in vehicles and maps, or the scenarios of a file.
     List(ListArgs),
     /// Print the JSON schema of a document.
@@ -37,10 +44,16 @@ pub(crate) enum Command {
     },
     /// Print the manual page.
     Man,
+    /// One run of `bench`; it starts this by itself.
+    #[command(hide = true)]
+    BenchRun {
+        /// The run, as JSON.
+        job: String,
+    },
 }
 
 /// The ground: a map, and what closes parts of it; the vehicle on it.
-#[derive(Args, Debug)]
+#[derive(Args, Debug, Default)]
 pub(crate) struct GroundArgs {
     /// Map file (ROS .yaml, Moving AI .map, .csv or .txt matrix) or name of a built-in map.
     #[arg(long, value_name = "F|NAME", value_hint = ValueHint::FilePath)]
@@ -86,6 +99,18 @@ pub(crate) struct Polygon(pub(crate) Vec<Point2>);
 
 fn parse_polygon(text: &str) -> Result<Polygon, String> {
     values::polygon(text).map(Polygon)
+}
+
+/// Flags of `demo`.
+#[derive(Args, Debug)]
+pub(crate) struct DemoArgs {
+    /// Folder of the page, made where it does not exist; files of an earlier demo are replaced.
+    #[arg(long, value_name = "DIR", default_value = "./formicar-demo", value_hint = ValueHint::DirPath)]
+    pub(crate) out: PathBuf,
+
+    /// Only runs whose name holds this word; may be repeated.
+    #[arg(long, value_name = "WORD", hide = true)]
+    pub(crate) only: Vec<String>,
 }
 
 /// Flags of `plan`.

@@ -75,7 +75,8 @@ pub(crate) fn load(args: &GroundArgs) -> Result<Ground> {
     })
 }
 
-fn find(args: &GroundArgs) -> Result<Found> {
+/// The map that the flags name, as it is.
+pub(crate) fn find(args: &GroundArgs) -> Result<Found> {
     match (&args.map, &args.scenario) {
         (Some(name), None) if BuiltinMap::by_name(name).is_ok() => builtin(args, name),
         (Some(name), None) => file(args, name),

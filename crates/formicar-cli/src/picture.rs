@@ -1,11 +1,13 @@
 //! Pictures of answers.
 
 use crate::ground::Ground;
-use crate::summary::clearance;
+use crate::summary::{clearance, counted};
 use anyhow::Result;
-use formicar::geometry::Pose2;
+use formicar::collision::{Body, ObstacleMap};
+use formicar::geometry::{Point2, Pose2};
 use formicar::planner::{Answer, Outcome, PathDocument};
-use formicar::render::{Picture, PlanPicture, ProfilePoint, plan_picture};
+use formicar::render::{Layout, Picture, PlanPicture, ProfilePoint, plan_picture_in};
+use formicar::vehicle::Vehicle;
 
 /// The formats of pictures.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +24,12 @@ pub(crate) const KINDS: [(&str, PictureKind); 2] =
 const PNG_WIDTH_PX: u32 = 1600;
 
 /// The picture of an answer, with or without a path.
-pub(crate) fn of(ground: &Ground, answer: &Answer, outcome: &Outcome) -> Picture {
+pub(crate) fn of(
+    (ground, obstacles): (&Ground, &ObstacleMap),
+    answer: &Answer,
+    outcome: &Outcome,
+    layout: Layout,
+) -> Picture {
     let pose = |ends: Option<[f64; 3]>| {
         let [x, y, heading] = ends.unwrap_or_default();
         Pose2::new(x, y, heading)
@@ -39,20 +46,32 @@ pub(crate) fn of(ground: &Ground, answer: &Answer, outcome: &Outcome) -> Picture
         }
     };
     let profile = answer.path.as_ref().map(profile).unwrap_or_default();
-    plan_picture(&PlanPicture {
+    let plan = PlanPicture {
         map: &ground.map,
         vehicle: &ground.vehicle.vehicle,
         start: pose(request.start),
         goal: pose(request.goal),
         path,
         profile: &profile,
-        tightest: report.map(|r| (r.tightest.position(), r.min_clearance_m)),
+        tightest: report.map(|r| {
+            let place = contact(obstacles, &ground.vehicle.vehicle, r.tightest);
+            (place, r.min_clearance_m)
+        }),
         title: &format!(
-            "{}: {} by {}",
-            ground.record.name, answer.status, answer.planner
+            "{}: {}",
+            ground.record.name,
+            answer.status.replace('_', " ")
         ),
-        caption: &caption(answer),
-    })
+        caption: &caption(answer, &ground.vehicle.vehicle),
+    };
+    plan_picture_in(&plan, layout)
+}
+
+/// The place of an obstacle that the vehicle comes nearest to.
+fn contact(obstacles: &ObstacleMap, vehicle: &Vehicle, tightest: Pose2) -> Point2 {
+    let frame = obstacles.frame();
+    let place = obstacles.nearest_obstacle(&Body::new(vehicle), frame.to_grid(tightest));
+    frame.to_world(Pose2::at(place, 0.0)).position()
 }
 
 /// The bytes of a picture.
@@ -74,14 +93,23 @@ fn profile(path: &PathDocument) -> Vec<ProfilePoint> {
     path.poses.iter().map(point).collect()
 }
 
-fn caption(answer: &Answer) -> String {
-    match (&answer.reason, &answer.path, &answer.certificate) {
-        (None, Some(path), Some(certificate)) => format!(
-            "{:.2} m, clearance {}, largest curvature {:.2} 1/m",
-            path.poses.last().map_or(0.0, |pose| pose.s),
-            clearance(certificate.min_clearance_m),
-            certificate.max_curvature_per_m
-        ),
-        (reason, ..) => reason.clone().unwrap_or_default(),
+/// Key numbers of a path, or the reason why there is none.
+fn caption(answer: &Answer, vehicle: &Vehicle) -> String {
+    let (Some(metrics), None) = (&answer.metrics, &answer.reason) else {
+        return answer.reason.clone().unwrap_or_default();
+    };
+    let mut parts = vec![
+        format!("{:.2} m", metrics.length_m),
+        format!("clearance {}", clearance(metrics.min_clearance_m)),
+    ];
+    let limit_per_m = vehicle.max_curvature_per_m();
+    if limit_per_m.is_finite() {
+        let largest_per_m = metrics.max_curvature_per_m;
+        parts.push(format!(
+            "curvature {largest_per_m:.2} of {limit_per_m:.2} 1/m"
+        ));
+        parts.push(counted(metrics.n_cusps, "cusp"));
     }
+    let by = format!("{} by {}", answer.provenance.vehicle.name, answer.planner);
+    format!("{by}: {}", parts.join(", "))
 }

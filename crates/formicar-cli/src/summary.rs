@@ -67,7 +67,7 @@ pub(crate) fn counted(n: usize, noun: &str) -> String {
 }
 
 /// A time in the unit that suits it.
-fn duration(seconds: f64) -> String {
+pub(crate) fn duration(seconds: f64) -> String {
     if seconds < 1.0 {
         format!("{:.1} ms", seconds * 1e3)
     } else {

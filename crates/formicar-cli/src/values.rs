@@ -38,6 +38,14 @@ pub(crate) fn pose(text: &str) -> Result<Pose2, String> {
     Ok(Pose2::new(number(x)?, number(y)?, angle(heading)?))
 }
 
+/// `X,Y`, metres.
+pub(crate) fn point(text: &str) -> Result<Point2, String> {
+    let Some((x, y)) = text.split_once(',') else {
+        return Err("expected X,Y in metres, for instance 2,3.5".to_owned());
+    };
+    Ok(Point2::new(number(x)?, number(y)?))
+}
+
 /// `M,RAD`, both above 0.
 pub(crate) fn goal_tolerance(text: &str) -> Result<GoalTolerance, String> {
     let Some((xy, yaw)) = text.split_once(',') else {

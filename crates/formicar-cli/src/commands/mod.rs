@@ -1,10 +1,16 @@
 //! One file per verb.
 
+mod bench;
 mod check;
+mod demo;
 mod list;
+mod map;
 mod meta;
 mod plan;
 mod stdin;
+
+pub(crate) use bench::BenchArgs;
+pub(crate) use map::MapArgs;
 
 use crate::args::Command;
 use crate::failure::{Ending, Failure};
@@ -13,8 +19,12 @@ use std::io::Write;
 /// Carries out a command; `out` is stdout.
 pub(crate) fn run(command: &Command, out: &mut impl Write) -> Result<Ending, Failure> {
     match command {
+        Command::Demo(args) => demo::run(args, out),
         Command::Plan(args) => plan::run(args, out),
         Command::Check(args) => check::run(args, out),
+        Command::Bench(args) => bench::run(args, out),
+        Command::BenchRun { job } => bench::run_one(job, out),
+        Command::Map(args) => map::run(args, out),
         Command::List(args) => list::run(args, out),
         Command::Schema(args) => meta::schema(args, out),
         Command::Completions { shell } => meta::completions(*shell, out),

@@ -14,6 +14,7 @@ use formicar::numeric::Seed;
 use formicar::planner::{
     Answer, AnswerContext, Outcome, PlanError, Planner, PlannerConfig, RequestDocument, Timing,
 };
+use formicar::render::Layout;
 use std::io::Write;
 use std::sync::Arc;
 use std::time::Instant;
@@ -38,8 +39,8 @@ pub(super) struct Session {
 /// One answered query.
 pub(super) struct Answered {
     pub(super) answer: Answer,
-    result: Result<Outcome, PlanError>,
-    n_improvements: u32,
+    pub(super) result: Result<Outcome, PlanError>,
+    pub(super) n_improvements: u32,
 }
 
 /// Carries out `plan`.
@@ -101,7 +102,7 @@ fn request(args: &PlanArgs, ground: &Ground) -> RequestDocument {
 }
 
 impl Session {
-    fn new(ground: Ground, config: PlannerConfig, begun: Instant) -> Result<Self> {
+    pub(super) fn new(ground: Ground, config: PlannerConfig, begun: Instant) -> Result<Self> {
         let setup = Instant::now();
         let planner = Planner::new(&ground.map, ground.vehicle.vehicle.clone(), config.clone())?;
         Ok(Self {
@@ -185,7 +186,12 @@ fn write_files(
     }
     if let (Some(target), Ok(outcome)) = (picture, &answered.result) {
         let ground = &session.ground;
-        let image = picture::of(ground, &answered.answer, outcome);
+        let image = picture::of(
+            (ground, &session.obstacles),
+            &answered.answer,
+            outcome,
+            Layout::Page,
+        );
         target.write(&picture::encode(&image, target.kind)?)?;
     }
     Ok(())

@@ -8,6 +8,7 @@
 
 mod arc;
 mod body;
+mod contact;
 mod convex;
 mod nearest;
 mod obstacle_map;

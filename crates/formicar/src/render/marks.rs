@@ -3,7 +3,7 @@
 use super::Scene;
 use super::legend::Swatch;
 use super::palette::{self, Color};
-use super::style::{Dash, PoseMark};
+use super::style::{Dash, PoseMark, clearance_label};
 use super::svg::{Element, PathData};
 use super::view::View;
 use crate::geometry::{Point2, Pose2};
@@ -122,7 +122,7 @@ impl Scene {
         self.body.add(&casing.text("stroke-opacity", "0.85"));
         self.body
             .add(&Element::circle(at, 12.0).pen(palette::LIMIT, 2.4));
-        let label = format!("{clearance_m:.2} m");
+        let label = clearance_label(clearance_m);
         self.labels.name(at, 17.0, (&label, palette::LIMIT));
         self.legend.add("tightest place", Swatch::Ring);
         self

@@ -6,6 +6,7 @@
 
 mod cells;
 mod chart;
+mod focus;
 mod labels;
 mod legend;
 mod lettering;
@@ -27,9 +28,9 @@ mod view;
 pub use chart::{Axis, Band, Chart, Limit, Ribbon, SERIES_COLORS, Series, Side};
 pub use palette::Color;
 pub use picture::Picture;
-pub use plan::{PlanPicture, plan_picture};
+pub use plan::{PlanPicture, plan_picture, plan_picture_in};
 #[cfg(feature = "png-pictures")]
 pub use png::RenderError;
 pub use scene::Scene;
 pub use strips::{ProfilePoint, strip_charts};
-pub use style::{CellStyle, Dash, LineStyle, PoseMark};
+pub use style::{CellStyle, Dash, Layout, LineStyle, PoseMark};

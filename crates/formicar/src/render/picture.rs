@@ -5,10 +5,10 @@ use super::chart::Chart;
 use super::lettering::Lettering;
 use super::palette;
 use super::panel::LEFT_PX;
+use super::style::Layout;
 use super::svg::{Element, Svg};
 use crate::geometry::Point2;
 
-const MARGIN_PX: f64 = 24.0;
 const GAP_PX: f64 = 26.0;
 /// Width of charts beside a scene, or without one.
 const COLUMN_PX: f64 = 460.0;
@@ -32,6 +32,8 @@ pub struct Picture {
     pub detail: Option<(Scene, String)>,
     /// Charts, stacked.
     pub charts: Vec<Chart>,
+    /// How its parts are put together; scenes bring their own size.
+    pub layout: Layout,
 }
 
 impl Picture {
@@ -60,12 +62,18 @@ impl Picture {
         document.as_str().to_owned()
     }
 
+    /// Width and height of the page in pixels, as the SVG states them.
+    pub fn size_px(&self) -> Point2 {
+        let size = self.draw(&mut Svg::default());
+        Point2::new(size.x.ceil(), size.y.ceil())
+    }
+
     /// Draws everything and returns the size of the page.
     fn draw(&self, svg: &mut Svg) -> Point2 {
         let width_px = self.width_px();
         let top = self.draw_head(svg, width_px);
         let bottom = match &self.scene {
-            None => self.draw_charts(svg, top, width_px - 2.0 * MARGIN_PX),
+            None => self.draw_charts(svg, top, width_px - 2.0 * self.margin_px()),
             Some(scene) => {
                 scene.draw(svg, top);
                 let size = scene.size_px();
@@ -73,15 +81,24 @@ impl Picture {
                     self.draw_below(svg, top + Point2::new(0.0, size.y), size.x)
                 } else {
                     let beside = top + Point2::new(size.x + GAP_PX, 0.0);
-                    self.draw_beside(svg, beside).max(top.y + size.y)
+                    self.draw_column(svg, beside, COLUMN_PX).max(top.y + size.y)
                 }
             }
         };
-        Point2::new(width_px, bottom + MARGIN_PX)
+        Point2::new(width_px, bottom + self.margin_px())
     }
 
     fn charts_below(&self, scene: &Scene) -> bool {
-        scene.panel_px().x >= WIDE_PANEL_PX || self.charts.is_empty() && self.detail.is_none()
+        // A lone chart would leave the column beside the scene empty.
+        let column = self.charts.len() > 1 || self.detail.is_some();
+        self.layout == Layout::Phone || scene.panel_px().x >= WIDE_PANEL_PX || !column
+    }
+
+    fn margin_px(&self) -> f64 {
+        match self.layout {
+            Layout::Page => 24.0,
+            Layout::Phone => 10.0,
+        }
     }
 
     fn width_px(&self) -> f64 {
@@ -90,23 +107,28 @@ impl Picture {
             Some(scene) if self.charts_below(scene) => scene.size_px().x,
             Some(scene) => scene.size_px().x + GAP_PX + COLUMN_PX,
         };
-        content_px.max(480.0) + 2.0 * MARGIN_PX
+        let least_px = match self.layout {
+            Layout::Page => 480.0,
+            Layout::Phone => 374.0,
+        };
+        content_px.max(least_px) + 2.0 * self.margin_px()
     }
 
     /// Title and caption; returns where the rest begins.
     fn draw_head(&self, svg: &mut Svg, width_px: f64) -> Point2 {
-        let mut y = MARGIN_PX;
+        let margin_px = self.margin_px();
+        let mut y = margin_px;
         for (style, text, line_px) in [(TITLE, &self.title, 30.0), (CAPTION, &self.caption, 21.0)] {
-            for line in style.wrapped(text, width_px - LEFT_PX - 2.0 * MARGIN_PX) {
+            for line in style.wrapped(text, width_px - LEFT_PX - 2.0 * self.margin_px()) {
                 y += line_px;
                 style.write(
                     svg,
-                    Point2::new(MARGIN_PX + LEFT_PX, y - 0.4 * line_px),
+                    Point2::new(margin_px + LEFT_PX, y - 0.4 * line_px),
                     &line,
                 );
             }
         }
-        Point2::new(MARGIN_PX, if y > MARGIN_PX { y + 10.0 } else { y })
+        Point2::new(margin_px, if y > margin_px { y + 10.0 } else { y })
     }
 
     /// Charts, and the detail at their right; returns where they end.
@@ -115,14 +137,18 @@ impl Picture {
             return self.draw_charts(svg, at + Point2::new(0.0, 8.0), width_px);
         };
         let start = at + Point2::new(0.0, 8.0);
+        if self.layout == Layout::Phone {
+            return self.draw_column(svg, start, width_px);
+        }
         let charts_px = width_px - detail.size_px().x - GAP_PX;
         let charts_end = self.draw_charts(svg, start, charts_px);
         let corner = start + Point2::new(charts_px + GAP_PX, 0.0);
         self.draw_detail(svg, corner).max(charts_end)
     }
 
-    fn draw_beside(&self, svg: &mut Svg, at: Point2) -> f64 {
-        let charts_end = self.draw_charts(svg, at, COLUMN_PX);
+    /// A column of charts with the detail at its foot.
+    fn draw_column(&self, svg: &mut Svg, at: Point2, width_px: f64) -> f64 {
+        let charts_end = self.draw_charts(svg, at, width_px);
         let gap = if self.charts.is_empty() { 0.0 } else { 12.0 };
         self.draw_detail(svg, Point2::new(at.x, charts_end + gap))
     }

@@ -1,13 +1,14 @@
 //! The picture of a plan: map, poses, path, swept ground, tightest place and strip charts.
 
-use super::{Picture, PoseMark, ProfilePoint, Scene, strip_charts};
+use super::style::clearance_label;
+use super::{Layout, Picture, PoseMark, ProfilePoint, Scene, focus, strip_charts};
 use crate::geometry::{Point2, Pose2};
 use crate::map::OccupancyGrid;
 use crate::path::CurvePath;
 use crate::vehicle::Vehicle;
 
 /// A detail is shown where it enlarges the map at least so many times.
-const WORTHWHILE_ENLARGEMENT: f64 = 1.5;
+const WORTHWHILE_ENLARGEMENT: f64 = 1.25;
 
 /// All that the picture of a plan, or of a failure, is made from.
 #[derive(Clone, Copy, Debug)]
@@ -32,12 +33,18 @@ pub struct PlanPicture<'a> {
     pub caption: &'a str,
 }
 
-/// The picture of a plan, or of a request without one.
+/// The picture of a plan, or of a request without one, for a page.
 pub fn plan_picture(plan: &PlanPicture) -> Picture {
-    let scene = drawn(Scene::new(plan.map), plan);
+    plan_picture_in(plan, Layout::Page)
+}
+
+/// The picture of a plan, or of a request without one. Where the way is short beside the map, its
+/// surroundings alone are shown.
+pub fn plan_picture_in(plan: &PlanPicture, layout: Layout) -> Picture {
+    let scene = drawn(Scene::part(plan.map, focus::bounds(plan), layout), plan);
     let detail = plan.tightest.and_then(|(place, clearance_m)| {
         let detail = Scene::detail(plan.map, place, detail_half_side_m(plan));
-        let heading = format!("tightest place: {clearance_m:.2} m");
+        let heading = format!("tightest place: {}", clearance_label(clearance_m));
         let enlarges = detail.px_per_m() >= WORTHWHILE_ENLARGEMENT * scene.px_per_m();
         enlarges.then(|| (drawn(detail, plan).without_legend(), heading))
     });
@@ -47,6 +54,7 @@ pub fn plan_picture(plan: &PlanPicture) -> Picture {
         scene: Some(scene),
         detail,
         charts: strip_charts(plan.profile, plan.vehicle),
+        layout,
     }
 }
 

@@ -129,13 +129,7 @@ impl Plot<'_> {
             let low = Point2::new(from, self.corner.y);
             let area = Element::rectangle(low, Point2::new((to - from).max(0.0), self.size.y));
             svg.add(&area.fill(palette::REVERSE.mix(palette::PAGE, 0.8)));
-            // Limits are named at the right end.
-            let right = self.corner.x + self.size.x - 80.0;
-            if to - from > NUMBERS.width_px(&band.label) + 6.0 && to < right {
-                let base = Point2::new(0.5 * (from + to), self.corner.y + self.size.y - 3.5);
-                let middle = NUMBERS.anchored(Anchor::Middle);
-                middle.write(svg, base, &band.label);
-            }
+            self.name_band(svg, &band.label, (from, to));
         }
         self.draw_x_axis(svg);
         self.draw_y_axis(svg, (self.left, Side::Left));
@@ -143,6 +137,26 @@ impl Plot<'_> {
             self.draw_y_axis(svg, (self.right, Side::Right));
         }
         svg.add(&Element::rectangle(self.corner, self.size).pen(palette::RULE, 1.0));
+    }
+
+    /// Above the frame, where no line runs, if it fits there beside the heading.
+    fn name_band(&self, svg: &mut Svg, label: &str, (from, to): (f64, f64)) {
+        let style = Lettering::new(12.0, palette::REVERSE.mix(palette::INK, 0.25));
+        let half_px = 0.5 * style.width_px(label);
+        let middle = 0.5 * (from + to);
+        let free = self.corner.x + self.head_px()..self.corner.x + self.size.x;
+        let wide_enough = to - from > 1.2 * half_px;
+        if wide_enough && free.contains(&(middle - half_px)) && free.contains(&(middle + half_px)) {
+            let base = Point2::new(middle, self.corner.y - 5.0);
+            style.anchored(Anchor::Middle).write(svg, base, label);
+        }
+    }
+
+    /// Width of title and unit above the frame.
+    fn head_px(&self) -> f64 {
+        let title_px = HEADING.bold().width_px(&self.chart.title);
+        let unit_px = Lettering::new(12.0, palette::MUTED).width_px(&self.chart.y.label);
+        title_px + unit_px + 24.0
     }
 
     fn draw_x_axis(&self, svg: &mut Svg) {

@@ -4,7 +4,7 @@ use super::cells::CellLayer;
 use super::labels::Labels;
 use super::legend::{Legend, Swatch};
 use super::palette::{self, Color};
-use super::style::{CellStyle, Dash, LineStyle};
+use super::style::{CellStyle, Dash, Layout, LineStyle};
 use super::svg::{Element, PathData, Svg};
 use super::view::{View, frame_bounds, frame_corners};
 use crate::geometry::Point2;
@@ -15,6 +15,8 @@ use crate::path::{GridPath, WaypointPath};
 const WIDE_PX: Point2 = Point2::new(1100.0, 740.0);
 /// The largest panel of any other map: charts stand beside it.
 const TALL_PX: Point2 = Point2::new(680.0, 820.0);
+/// The largest panel on a phone.
+const PHONE_PX: Point2 = Point2::new(330.0, 440.0);
 /// From this ratio of width to height on a map counts as wide.
 const WIDE_RATIO: f64 = 1.4;
 /// Side of the panel of a detail.
@@ -37,11 +39,19 @@ pub struct Scene {
 impl Scene {
     /// The whole of a map.
     pub fn new(map: &OccupancyGrid) -> Self {
-        let (low, high) = frame_bounds(map.frame());
+        Self::part(map, frame_bounds(map.frame()), Layout::Page)
+    }
+
+    /// What lies between a lowest and a highest world coordinate.
+    pub(super) fn part(map: &OccupancyGrid, bounds: (Point2, Point2), layout: Layout) -> Self {
+        let (low, high) = bounds;
         let extent = high - low;
-        let wide = extent.x >= WIDE_RATIO * extent.y;
-        let view = View::fit(low, high, if wide { WIDE_PX } else { TALL_PX });
-        Self::with_view(map, view)
+        let max_px = match layout {
+            Layout::Phone => PHONE_PX,
+            Layout::Page if extent.x >= WIDE_RATIO * extent.y => WIDE_PX,
+            Layout::Page => TALL_PX,
+        };
+        Self::with_view(map, View::fit(low, high, max_px))
     }
 
     /// The square around a place, `half_side_m` to each side: an enlarged detail.

@@ -2,6 +2,7 @@
 
 use super::chart::{Axis, Band, Chart, Limit, Series};
 use super::palette;
+use super::style::clearance_label;
 use crate::geometry::Point2;
 use crate::path::Direction;
 use crate::vehicle::{Motion, Vehicle};
@@ -32,7 +33,7 @@ pub fn strip_charts(profile: &[ProfilePoint], vehicle: &Vehicle) -> Vec<Chart> {
     if vehicle.motion() == Motion::Car {
         charts.push(Chart {
             limits: both_sides(max_curvature_per_m, |k| format!("{k:.2} 1/m")),
-            ..strip(profile, ("curvature", "1/m"), |p| p.curvature_per_m)
+            ..steps(profile, ("curvature", "1/m"), |p| p.curvature_per_m)
         });
     }
     if let Some(limit_rad) = vehicle
@@ -42,10 +43,14 @@ pub fn strip_charts(profile: &[ProfilePoint], vehicle: &Vehicle) -> Vec<Chart> {
         let steer_deg = |p: &ProfilePoint| p.steer_rad.map_or(f64::NAN, f64::to_degrees);
         charts.push(Chart {
             limits: both_sides(limit_rad.to_degrees(), |a| format!("{a:.1}°")),
-            ..strip(profile, ("steering", "degrees"), steer_deg)
+            ..steps(profile, ("steering", "degrees"), steer_deg)
         });
     }
     charts.push(clearance(profile));
+    if let Some(first) = charts.first_mut() {
+        let name = |band: &mut Band| String::from("reverse").clone_into(&mut band.label);
+        first.bands.iter_mut().for_each(name);
+    }
     if let Some(last) = charts.last_mut() {
         last.x.label = String::from("arc length, m");
     }
@@ -57,7 +62,7 @@ fn clearance(profile: &[ProfilePoint]) -> Chart {
     let tightest = finite.min_by(|a, b| a.clearance_m.total_cmp(&b.clearance_m));
     let label = |p: &ProfilePoint| {
         let place = Point2::new(p.s_m, p.clearance_m);
-        (place, format!("{:.2} m", p.clearance_m))
+        (place, clearance_label(p.clearance_m))
     };
     Chart {
         limits: vec![Limit {
@@ -67,6 +72,24 @@ fn clearance(profile: &[ProfilePoint]) -> Chart {
         ringed: tightest.map(label),
         ..strip(profile, ("clearance", "m"), |p| p.clearance_m)
     }
+}
+
+/// A strip of values that hold from one point to the next: those of the gear and arc on which the
+/// point was reached.
+fn steps(
+    profile: &[ProfilePoint],
+    heading: (&str, &str),
+    value: impl Fn(&ProfilePoint) -> f64,
+) -> Chart {
+    let mut chart = strip(profile, heading, &value);
+    if let Some(series) = chart.series.first_mut() {
+        let steps = profile.windows(2).flat_map(|pair| {
+            let reached = value(&pair[1]);
+            [pair[0].s_m, pair[1].s_m].map(|s_m| Point2::new(s_m, reached))
+        });
+        series.points = steps.collect();
+    }
+    chart
 }
 
 fn strip(
@@ -111,7 +134,7 @@ fn reverse_stretches(profile: &[ProfilePoint]) -> Vec<Band> {
         match bands.last_mut() {
             Some(band) if band.to == from => band.to = to,
             _ => bands.push(Band {
-                label: "reverse".to_owned(),
+                label: String::new(),
                 from,
                 to,
             }),

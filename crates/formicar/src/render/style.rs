@@ -2,6 +2,16 @@
 
 use super::palette::{self, Color};
 
+/// How much room a picture has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Layout {
+    /// A page or a screen: up to about 1200 px wide, charts beside or below the map.
+    #[default]
+    Page,
+    /// A phone held upright: about 400 px wide, everything below each other.
+    Phone,
+}
+
 /// How a line is broken.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Dash {
@@ -72,4 +82,13 @@ pub enum PoseMark {
     Start,
     /// Where it should go.
     Goal,
+}
+
+/// A clearance with its unit, to the millimetre where it is small.
+pub(super) fn clearance_label(clearance_m: f64) -> String {
+    if clearance_m < 0.1 {
+        format!("{clearance_m:.3} m")
+    } else {
+        format!("{clearance_m:.2} m")
+    }
 }

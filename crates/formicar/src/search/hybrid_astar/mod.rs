@@ -36,29 +36,31 @@ pub fn hybrid_astar(
     limits: &mut Limits,
 ) -> Result<(Pose2, Vec<Arc>), Status> {
     let fine = problem.refined();
+    let (from_goal, fine_from_goal) = (problem.swapped(), fine.swapped());
     let [turning, wide, sure] = problem.inflations_m();
+    // A guide that leads astray, or a tight place at the other end, must not cost all the time
+    // there is: patience is short where hope is small, and unbounded only at the end.
     let stages = [
-        (problem, turning),
-        (problem, wide),
-        (problem, sure),
-        (&fine, wide),
-        (&fine, sure),
+        (Some(problem), turning, PATIENCE_STEPS),
+        (Some(problem), wide, PATIENCE_STEPS),
+        (Some(&fine), wide, PATIENCE_STEPS / 10),
+        (fine_from_goal.as_ref(), wide, PATIENCE_STEPS / 10),
+        (from_goal.as_ref(), wide, PATIENCE_STEPS),
+        (fine_from_goal.as_ref(), wide, PATIENCE_STEPS),
+        (Some(&fine), wide, PATIENCE_STEPS),
+        (Some(problem), sure, 10 * PATIENCE_STEPS),
+        (Some(&fine), sure, u64::MAX),
     ];
     let most_steps = problem.config().max_iterations;
-    for (stage, (problem, inflation_m)) in stages.into_iter().enumerate() {
-        let left = most_steps.saturating_sub(limits.n_steps());
-        // A guide that leads astray must not cost all the time there is.
-        let patience = if stage + 1 == stages.len() {
-            left
-        } else {
-            left.min(PATIENCE_STEPS)
-        };
+    for (problem, inflation_m, patience) in stages {
+        let Some(problem) = problem else { continue };
         let Some(guide) = Guide::new(problem, inflation_m, limits)? else {
             continue;
         };
-        match Search::new(problem, &guide).run(patience, limits) {
+        let left = most_steps.saturating_sub(limits.n_steps());
+        match Search::new(problem, &guide).run(patience.min(left), limits) {
             Err(Status::NoPath) => {}
-            other => return other,
+            ended => return ended.map(|path| problem.from_start(path)),
         }
     }
     if limits.n_steps() >= most_steps {
@@ -68,7 +70,7 @@ pub fn hybrid_astar(
     }
 }
 
-/// Steps after which the next guide, or the finer lattice, is tried.
+/// Steps after which, usually, the next guide, side or lattice is tried.
 const PATIENCE_STEPS: u64 = 50_000;
 
 /// The state of one search.

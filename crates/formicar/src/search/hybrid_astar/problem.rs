@@ -30,6 +30,8 @@ pub struct HybridProblem<'a> {
     radius_m: f64,
     axle_inradius_m: f64,
     request: &'a Request,
+    /// +1, or -1 where the search runs from the goal and every motion will be driven backwards.
+    sense: f64,
     starts: Vec<Pose2>,
     goals: Vec<Pose2>,
 }
@@ -62,6 +64,7 @@ impl<'a> HybridProblem<'a> {
             radius_m,
             axle_inradius_m: vehicle.footprint().inradius().max(0.0),
             request,
+            sense: 1.0,
             starts: Vec::new(),
             goals: Vec::new(),
         };
@@ -88,6 +91,31 @@ impl<'a> HybridProblem<'a> {
             },
             Err(_) => self.clone(),
         }
+    }
+
+    /// The same query from the goal: where only the goal is tight, its surroundings are searched
+    /// from within. None where reverse is not allowed.
+    pub(super) fn swapped(&self) -> Option<Self> {
+        let swapped = |problem: Self| Self {
+            sense: -problem.sense,
+            starts: problem.goals,
+            goals: problem.starts,
+            ..problem
+        };
+        (self.request.motion == MotionMode::Reverse).then(|| swapped(self.clone()))
+    }
+
+    /// A path found by this search, from the request's start on.
+    pub(super) fn from_start(&self, (start, mut arcs): (Pose2, Vec<Arc>)) -> (Pose2, Vec<Arc>) {
+        if self.sense > 0.0 {
+            return (start, arcs);
+        }
+        let end = arcs.iter().fold(start, |pose, arc| arc.end_from(pose));
+        arcs.reverse();
+        for arc in &mut arcs {
+            arc.signed_length_m = -arc.signed_length_m;
+        }
+        (end, arcs)
     }
 
     /// Radii by which to grow obstacles for the goal field, most first: halfway to what the body
@@ -220,7 +248,7 @@ impl<'a> HybridProblem<'a> {
 
     /// Cost of an arc by its length, gear and steering alone.
     fn driving_cost(&self, arc: Arc) -> f64 {
-        let gear = if arc.signed_length_m < 0.0 {
+        let gear = if self.sense * arc.signed_length_m < 0.0 {
             self.config.reverse_penalty
         } else {
             1.0
@@ -233,8 +261,11 @@ impl<'a> HybridProblem<'a> {
         arc.length_m() * gear * steering
     }
 
-    /// Whether a pose is a goal pose within the tolerance.
+    /// Whether a pose is a goal pose within the tolerance; a start must be met by a curve.
     pub(super) fn at_goal(&self, pose: Pose2) -> bool {
+        if self.sense < 0.0 {
+            return false;
+        }
         let GoalTolerance { xy_m, yaw_rad } = self.request.goal_tolerance;
         self.goals.iter().any(|goal| {
             pose.position().distance(goal.position()) <= xy_m

@@ -1,0 +1,88 @@
+//! Flags of `bench`.
+#![allow(clippy::doc_markdown, reason = "clap prints these words as they stand")]
+
+use super::machine;
+use crate::values;
+use clap::{Args, ValueHint};
+use formicar::planner::PlannerName;
+use formicar::scenario::MotionMode;
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+/// Flags of `bench`.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+The folder takes results.csv (one row per run), summary.md, MACHINE.md and settings.json. After a \
+kill the same command goes on where it stopped. `valid` is the word of the judge in the process of \
+the run; `check` repeats it on the answers that --paths keeps. Clearance, cusps and length at 0.1 s \
+and 1 s are those of the best path found by then, counted from the beginning of the query.")]
+pub(crate) struct BenchArgs {
+    /// Car scenarios (.json), TPCAP cases (.csv), MovingAI scenarios (.scen, for astar and dijkstra
+    /// with the point vehicle, the .map beside them), names of built-in maps (all their requests),
+    /// `narrow` (the narrow set) or `builtin` (all built-in maps).
+    #[arg(required = true, value_hint = ValueHint::FilePath)]
+    pub(crate) scenarios: Vec<String>,
+
+    /// Planners, separated by commas (see `list planners`).
+    #[arg(
+        long,
+        value_name = "A,B",
+        value_delimiter = ',',
+        default_value = "hybrid-astar"
+    )]
+    pub(crate) planners: Vec<PlannerName>,
+
+    /// Runs per scenario and planner, with the seeds 0 to N - 1.
+    #[arg(long, value_name = "N", default_value_t = 1,
+          value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    pub(crate) seeds: u64,
+
+    /// Folder for the results; made if need be.
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(crate) out: PathBuf,
+
+    /// Which gears may be used; `reverse` allows both and penalizes reverse.
+    #[arg(long, value_name = "MODE",
+          value_parser = values::word::<MotionMode>(&["forward", "reverse"]))]
+    pub(crate) motion: Option<MotionMode>,
+
+    /// Keep every answer as DIR/paths/SCENARIO.PLANNER.SEED.json.
+    #[arg(long)]
+    pub(crate) paths: bool,
+
+    /// Runs at once; more than one disturb each other's times.
+    #[arg(long, value_name = "N", default_value_t = 1,
+          value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub(crate) jobs: u32,
+
+    /// Take N lines of every .scen file, evenly spread from first to last.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) limit: Option<u32>,
+
+    /// Search steps after which a run gives up.
+    #[arg(long, value_name = "STEPS")]
+    pub(crate) budget: Option<u64>,
+
+    /// Time after which a run gives up, milliseconds.
+    #[arg(long, value_name = "MS", value_parser = values::positive, allow_hyphen_values = true)]
+    pub(crate) deadline: Option<f64>,
+
+    /// One planner parameter, for instance hybrid_astar.weight=1.2; may be repeated.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub(crate) set: Vec<String>,
+}
+
+impl BenchArgs {
+    /// What all rows of a table share: runs under other conditions do not belong in it.
+    pub(crate) fn conditions(&self) -> Value {
+        json!({
+            "schema": "formicar/bench/1",
+            "version": env!("CARGO_PKG_VERSION"),
+            "processor": machine::processor(),
+            "motion": self.motion.unwrap_or_default(),
+            "budget_steps": self.budget,
+            "deadline_ms": self.deadline,
+            "set": self.set,
+        })
+    }
+}

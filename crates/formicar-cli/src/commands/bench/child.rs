@@ -1,0 +1,118 @@
+//! The process of one run: plans, measures itself, and prints its row.
+
+use super::job::Job;
+use super::row::{KNOWN_BY, Row};
+use super::suite::Place;
+use super::usage;
+use crate::commands::plan::{Answered, Session};
+use crate::failure::{Ending, Failure};
+use crate::{ground, settings};
+use anyhow::{Context, Result};
+use formicar::map::format::write_atomically;
+use formicar::metrics::CompatibleMetrics;
+use formicar::numeric::Seed;
+use formicar::path::GridPath;
+use formicar::planner::{Outcome, Plan, RequestDocument};
+use serde_json::{Map, Value, json};
+use std::f64::consts::SQRT_2;
+use std::io::Write;
+use std::time::Instant;
+
+/// Carries out one run; its row goes to stdout as a JSON object.
+pub(crate) fn run_one(job: &str, out: &mut impl Write) -> Result<Ending, Failure> {
+    let begun = Instant::now();
+    let job: Job = serde_json::from_str(job).context("the run")?;
+    let settings = settings::load(None, &job.set, Some(job.planner))?;
+    let ground = ground::load(&job.ground())?;
+    let config = settings.for_motion(ground.vehicle.vehicle.motion());
+    let request = job.request(&ground)?;
+    let mut session = Session::new(ground, config, begun)?;
+    let answered = session.ask(&request, &RequestDocument::default(), Seed(job.seed));
+    // Before anything else uses up more.
+    let used = json!({
+        "cpu_s": usage::cpu_s(),
+        "peak_rss_bytes": usage::peak_rss_bytes(),
+    });
+    if let Some(path) = &job.answer {
+        let mut answer = serde_json::to_vec(&answered.answer).map_err(std::io::Error::from)?;
+        answer.push(b'\n');
+        write_atomically(path, &answer)
+            .with_context(|| format!("{} cannot be written", path.display()))?;
+    }
+    let mut row = Row::begin(&job);
+    row.fill(&used);
+    fill(&mut row, &answered);
+    if let Ok(Outcome::Found(plan)) = &answered.result {
+        let planner = &session.planner;
+        let compatible = CompatibleMetrics::new(&plan.path, planner.vehicle(), planner.obstacles());
+        row.fill(&to_value(&compatible));
+    }
+    if let Place::Cells {
+        optimal_length_cells,
+        ..
+    } = job.task.place
+    {
+        row.set("optimal_length_cells", &json!(optimal_length_cells));
+    }
+    writeln!(out, "{}", row.to_json())?;
+    Ok(Ending::Done)
+}
+
+/// What the answer says.
+fn fill(row: &mut Row, answered: &Answered) {
+    let answer = &answered.answer;
+    row.set("status", &json!(answer.status));
+    row.set("reason", &json!(answer.reason));
+    row.set(
+        "valid",
+        &json!(answer.certificate.as_ref().map(|c| c.valid)),
+    );
+    row.fill(&to_value(&answer.timing));
+    row.set(
+        "steps",
+        &match &answered.result {
+            Ok(Outcome::Found(plan)) => json!(plan.n_steps),
+            Ok(Outcome::NotFound(failure)) => json!(failure.n_steps),
+            Err(_) => Value::Null,
+        },
+    );
+    if let Ok(Outcome::Found(plan)) = &answered.result {
+        fill_found(row, plan, answered);
+    }
+}
+
+fn fill_found(row: &mut Row, plan: &Plan, answered: &Answered) {
+    row.fill(&to_value(&plan.metrics));
+    if let Some(grid_path) = &plan.grid_path {
+        row.set("length_cells", &json!(length_cells(grid_path)));
+    }
+    let first_s = answered.answer.timing.first_feasible_s;
+    for (limit_s, columns) in KNOWN_BY {
+        // The only path is the best at any time after it was found. Of a planner that replaces its
+        // path only the last is known, which counts from the end of the query.
+        let known_from_s = if answered.n_improvements == 0 {
+            first_s
+        } else {
+            Some(answered.answer.timing.query_s)
+        };
+        if known_from_s.is_some_and(|s| s <= limit_s) {
+            let [length, clearance, cusps] = columns;
+            row.set(length, &json!(plan.metrics.length_m));
+            row.set(clearance, &json!(plan.metrics.min_clearance_m));
+            row.set(cusps, &json!(plan.metrics.n_cusps));
+        }
+    }
+}
+
+/// Length between cell centers: straight steps count 1, diagonal ones the square root of 2.
+fn length_cells(path: &GridPath) -> f64 {
+    let is_diagonal = |w: &[formicar::map::Cell]| w[0].col != w[1].col && w[0].row != w[1].row;
+    let n_steps = path.cells.len().saturating_sub(1);
+    let n_diagonal = path.cells.windows(2).filter(|w| is_diagonal(w)).count();
+    (n_steps - n_diagonal) as f64 + SQRT_2 * n_diagonal as f64
+}
+
+/// Numbers as JSON; nothing where they are not finite.
+fn to_value(numbers: &impl serde::Serialize) -> Value {
+    serde_json::to_value(numbers).unwrap_or_else(|_| Value::Object(Map::new()))
+}

@@ -1,0 +1,228 @@
+//! From the words on the command line to scenarios; everything wrong with them is found here,
+//! before anything is started.
+
+use crate::args::GroundArgs;
+use crate::files::ScenarioFile;
+use crate::ground;
+use anyhow::{Context, Result, bail};
+use formicar::map::builtin::{self, BuiltinKind, BuiltinMap};
+use formicar::map::format::{MovingAiScenario, read_movingai_scenarios};
+use formicar::planner::PlannerName;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+/// A scenario to be planned.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Task {
+    /// Its name, unique in a table.
+    pub(super) scenario: String,
+    /// The file or built-in map that it comes from.
+    pub(super) source: String,
+    pub(super) place: Place,
+}
+
+/// Where start, goal and map are found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Place {
+    /// In a scenario file.
+    File { path: PathBuf, id: Option<String> },
+    /// In the library.
+    Builtin { map: String, request: String },
+    /// On a `MovingAI` map.
+    Cells {
+        map: PathBuf,
+        start: [u32; 2],
+        goal: [u32; 2],
+        optimal_length_cells: f64,
+    },
+}
+
+/// All scenarios that the words name.
+pub(super) fn tasks(
+    words: &[String],
+    limit: Option<u32>,
+    planners: &[PlannerName],
+) -> Result<Vec<Task>> {
+    let mut tasks = Vec::new();
+    for word in words {
+        tasks.extend(tasks_of(word, limit, planners)?);
+    }
+    let mut names = BTreeSet::new();
+    for task in &tasks {
+        let name = &task.scenario;
+        if name.is_empty() || name.contains(|c: char| c == '/' || c == '\\' || c.is_control()) {
+            bail!("scenario {name:?} cannot name a file; hint: an id without slashes");
+        }
+        if !names.insert(name) {
+            bail!("two scenarios are named {name:?}; hint: a table of their own for each");
+        }
+    }
+    Ok(tasks)
+}
+
+fn tasks_of(word: &str, limit: Option<u32>, planners: &[PlannerName]) -> Result<Vec<Task>> {
+    let path = Path::new(word);
+    let extension = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
+    match extension.as_deref().and_then(std::ffi::OsStr::to_str) {
+        Some("scen") if planners.contains(&PlannerName::HybridAstar) => bail!(
+            "{word}: hybrid-astar plans for cars, and MovingAI scenarios are for points; hint: \
+             --planners astar,dijkstra"
+        ),
+        Some("scen") => of_movingai(path, limit),
+        Some("json" | "csv") => of_file(path),
+        _ => of_builtin(word),
+    }
+}
+
+fn of_builtin(word: &str) -> Result<Vec<Task>> {
+    let maps: Vec<&BuiltinMap> = match word {
+        "builtin" => builtin::all().iter().collect(),
+        "narrow" => {
+            let narrow = |map: &&BuiltinMap| map.kind == BuiltinKind::Narrow;
+            builtin::all().iter().filter(narrow).collect()
+        }
+        name => {
+            let hint = "hint: a scenario file is .json, .csv or .scen; `narrow` and `builtin` are \
+                        sets of maps";
+            vec![BuiltinMap::by_name(name).context(hint)?]
+        }
+    };
+    let task = |map: &BuiltinMap, request: &str| Task {
+        scenario: format!("{}-{request}", map.name),
+        source: map.name.to_owned(),
+        place: Place::Builtin {
+            map: map.name.to_owned(),
+            request: request.to_owned(),
+        },
+    };
+    let tasks = maps.iter().flat_map(|map| {
+        let requests = map.requests.iter();
+        requests.map(move |request| task(map, request.id))
+    });
+    Ok(tasks.collect())
+}
+
+fn of_file(path: &Path) -> Result<Vec<Task>> {
+    let (file, source) = (ScenarioFile::read(path)?, stem(path)?);
+    let task = |scenario: String, id: Option<String>| Task {
+        scenario,
+        source: source.clone(),
+        place: Place::File {
+            path: path.to_owned(),
+            id,
+        },
+    };
+    let tasks: Vec<_> = match &file {
+        ScenarioFile::Cars(cars) => {
+            let ids = cars.rows().into_iter().map(|(id, _)| id);
+            ids.map(|id| task(id.clone(), Some(id))).collect()
+        }
+        ScenarioFile::Tpcap(case) => vec![task(case.row().0, None)],
+    };
+    for task in &tasks {
+        // A map that cannot be read is found now rather than once per run.
+        let Place::File { path, id } = &task.place else {
+            continue;
+        };
+        ground::find(&GroundArgs {
+            scenario: Some(path.clone()),
+            id: id.clone(),
+            ..GroundArgs::default()
+        })?;
+    }
+    Ok(tasks)
+}
+
+fn of_movingai(path: &Path, limit: Option<u32>) -> Result<Vec<Task>> {
+    let lines = read_movingai_scenarios(path)?;
+    if lines.is_empty() {
+        bail!("{}: it holds no scenarios", path.display());
+    }
+    // Both `x.map.scen` and `x.scen` lie beside `x.map`.
+    let map = path.with_extension("");
+    let map = if map.extension().is_some_and(|e| e == "map") {
+        map
+    } else {
+        path.with_extension("map")
+    };
+    let source = stem(&map)?;
+    let grid = ground::find(&GroundArgs {
+        map: Some(map.display().to_string()),
+        ..GroundArgs::default()
+    })?;
+    let (n_cols, n_rows) = (grid.map.frame().n_cols(), grid.map.frame().n_rows());
+    if let Some(line) = lines
+        .iter()
+        .find(|line| (line.n_cols, line.n_rows) != (n_cols, n_rows))
+    {
+        bail!(
+            "{}: it is for a map of {} x {} cells, {} has {n_cols} x {n_rows}",
+            path.display(),
+            line.n_cols,
+            line.n_rows,
+            map.display()
+        );
+    }
+    let task = |i: usize| task_of_line(&source, &map, i, &lines[i]);
+    Ok(spread(lines.len(), limit).map(task).collect())
+}
+
+fn task_of_line(source: &str, map: &Path, i: usize, line: &MovingAiScenario) -> Task {
+    Task {
+        scenario: format!("{source}-{:05}", i + 1),
+        source: source.to_owned(),
+        place: Place::Cells {
+            map: map.to_owned(),
+            start: [line.start.col, line.start.row],
+            goal: [line.goal.col, line.goal.row],
+            optimal_length_cells: line.optimal_length_cells,
+        },
+    }
+}
+
+/// At most `limit` of `n` indices, evenly spread from the first to the last.
+fn spread(n: usize, limit: Option<u32>) -> impl Iterator<Item = usize> {
+    let n_taken = limit.map_or(n, |limit| n.min(limit as usize));
+    (0..n_taken).map(move |i| i * (n - 1) / n_taken.saturating_sub(1).max(1))
+}
+
+fn stem(path: &Path) -> Result<String> {
+    let stem = path.file_stem().and_then(|stem| stem.to_str());
+    let stem = stem.with_context(|| format!("{}: a name in UTF-8 is needed", path.display()))?;
+    Ok(stem.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spreads_from_first_to_last() {
+        let taken = |n, limit| spread(n, limit).collect::<Vec<_>>();
+        assert_eq!(taken(4, None), [0, 1, 2, 3]);
+        assert_eq!(taken(4, Some(9)), [0, 1, 2, 3]);
+        assert_eq!(taken(101, Some(5)), [0, 25, 50, 75, 100]);
+        assert_eq!(taken(7, Some(1)), [0]);
+        assert_eq!(taken(1, Some(1)), [0]);
+    }
+
+    #[test]
+    fn names_sets_of_maps() {
+        let names = |word: &str| {
+            let tasks = tasks(&[word.to_owned()], None, &[PlannerName::Astar]).unwrap();
+            tasks.into_iter().map(|t| t.scenario).collect::<Vec<_>>()
+        };
+        assert_eq!(names("narrow-junction").len(), 2);
+        assert!(names("narrow").contains(&"slalom-poles-slalom".to_owned()));
+        assert!(names("builtin").len() > names("narrow").len());
+    }
+
+    #[test]
+    fn refuses_a_scenario_named_twice() {
+        let words = ["narrow".to_owned(), "narrow-junction".to_owned()];
+        let error = tasks(&words, None, &[PlannerName::Astar]).unwrap_err();
+        assert!(error.to_string().contains("narrow-junction-quarter-turn"));
+    }
+}

@@ -1,0 +1,94 @@
+//! The runs of the demo: every request of the built-in maps, and a few variations.
+
+use super::case::{Case, Chapter};
+use anyhow::Result;
+use formicar::geometry::Pose2;
+use formicar::map::builtin::{self, BuiltinKind};
+use formicar::scenario::MotionMode;
+use std::f64::consts::PI;
+
+/// Runs that are drawn as PNG too, one or two per chapter.
+const DRAWN_AS_PNG: [&str; 6] = [
+    "warehouse.dock-to-rack",
+    "parking-lot.back-in",
+    "neighborhood.across",
+    "u-turn-street.three-point",
+    "parking-lot.nose-in-forward",
+    "lei-map1.across",
+];
+
+/// All runs, in the order of the page.
+pub(super) fn cases() -> Result<Vec<Case>> {
+    let mut cases = Vec::new();
+    for chapter in Chapter::ALL {
+        match chapter {
+            Chapter::Scenes => cases.extend(of_kind(BuiltinKind::Scene, chapter)?),
+            Chapter::Narrow => cases.extend(of_kind(BuiltinKind::Narrow, chapter)?),
+            Chapter::Variations => cases.extend(variations(chapter)?),
+            Chapter::Grids => cases.extend(of_kind(BuiltinKind::GridProblem, chapter)?),
+        }
+    }
+    for case in &mut cases {
+        case.has_png = DRAWN_AS_PNG.contains(&case.id().as_str());
+    }
+    Ok(cases)
+}
+
+/// Every request of the built-in maps of a kind.
+fn of_kind(kind: BuiltinKind, chapter: Chapter) -> Result<Vec<Case>> {
+    let maps = builtin::all().iter().filter(|map| map.kind == kind);
+    let requests = maps.flat_map(|map| map.requests.iter().map(|request| (map.name, request.id)));
+    requests
+        .map(|(map, request)| Case::new(chapter, map, request))
+        .collect()
+}
+
+/// Other conditions, another frame, and two requests that nothing can answer.
+fn variations(chapter: Chapter) -> Result<Vec<Case>> {
+    Ok(vec![
+        Case {
+            request: "nose-in-forward",
+            motion: MotionMode::Forward,
+            about: "As parking-lot / nose-in, but reverse is forbidden: the way is longer, and no \
+                    gear changes.",
+            ..Case::new(chapter, "parking-lot", "nose-in")?
+        },
+        Case {
+            request: "rotated-frame",
+            origin: Some(Pose2::new(-120.0, 48.0, PI / 7.0)),
+            about: "As warehouse / rack-to-packing on a map whose origin is (-120, 48) with a yaw \
+                    of 26 degrees, as ROS maps may have: everything is asked and answered in world \
+                    coordinates.",
+            ..Case::new(chapter, "warehouse", "rack-to-packing")?
+        },
+        Case {
+            request: "other-street",
+            goal: Pose2::new(25.0, 8.0, PI),
+            is_impossible: true,
+            about: "The goal lies in the other of two closed streets: no vehicle gets there.",
+            ..Case::new(chapter, "u-turn-street", "three-point")?
+        },
+        Case {
+            request: "road-works",
+            goal: Pose2::new(22.0, 5.2, 0.0),
+            keep_out: &[[11.0, 3.0], [12.0, 3.0], [12.0, 6.5], [11.0, 6.5]],
+            is_impossible: true,
+            about: "Road works close most of the lane: what is left is thinner than the car.",
+            ..Case::new(chapter, "parallel-parking", "gap-6.4m")?
+        },
+    ])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn every_run_has_a_name_of_its_own() {
+        let cases = cases().unwrap();
+        let ids: BTreeSet<_> = cases.iter().map(Case::id).collect();
+        assert_eq!(ids.len(), cases.len());
+        assert!(DRAWN_AS_PNG.iter().all(|&id| ids.contains(id)));
+    }
+}

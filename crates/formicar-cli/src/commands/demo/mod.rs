@@ -1,0 +1,115 @@
+//! `demo`: what formicar does on its built-in maps, as a table, pictures and a page.
+
+mod case;
+mod catalog;
+mod page;
+mod run;
+mod table;
+
+use crate::args::DemoArgs;
+use crate::failure::{Ending, Failure};
+use crate::output::Target;
+use anyhow::{Context, Result, bail};
+use case::Case;
+use run::Done;
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+use std::time::Instant;
+
+/// Runs at a time.
+const N_WORKERS: usize = 2;
+
+/// The folder of pictures and answers beside the page.
+const RUNS_FOLDER: &str = "runs";
+
+/// Carries out `demo`.
+pub(crate) fn run(args: &DemoArgs, out: &mut impl Write) -> Result<Ending, Failure> {
+    let begun = Instant::now();
+    let cases = select(&args.only)?;
+    let page = prepare(&args.out)?;
+    let mut table = table::Table::new(&cases);
+    table.write_head(out)?;
+    let done = carry_out(&cases, |done| {
+        write_files(&args.out, done)?;
+        table.write_row(done, out)?;
+        Ok(out.flush()?)
+    })?;
+    let total_s = begun.elapsed().as_secs_f64();
+    page.write(page::html(&done, total_s).as_bytes())?;
+    table::write_end((&done, total_s), page.path(), out)?;
+    Ok(Ending::Done)
+}
+
+/// The cases whose name holds one of the words; all of them without words.
+fn select(words: &[String]) -> Result<Vec<Case>> {
+    let mut cases = catalog::cases()?;
+    if !words.is_empty() {
+        cases.retain(|case| words.iter().any(|word| case.id().contains(word.as_str())));
+    }
+    if cases.is_empty() {
+        bail!("--only: no run of the demo has {words:?} in its name");
+    }
+    Ok(cases)
+}
+
+/// Makes the folders, and sees that the page can be written.
+fn prepare(folder: &Path) -> Result<Target<()>> {
+    let runs = folder.join(RUNS_FOLDER);
+    fs::create_dir_all(&runs).with_context(|| {
+        let runs = runs.display();
+        format!(
+            "--out: the folder {runs} cannot be made; hint: name one where files may be written"
+        )
+    })?;
+    Target::new(&folder.join("index.html"), &[("html", ())])
+}
+
+/// Plans all cases on two threads and hands each on in the order of the catalog. Cases share
+/// nothing, so that the number of threads changes times alone.
+fn carry_out<'a>(
+    cases: &'a [Case],
+    mut hand_on: impl FnMut(&Done<'a>) -> Result<(), Failure>,
+) -> Result<Vec<Done<'a>>, Failure> {
+    let next = AtomicUsize::new(0);
+    let (sender, receiver) = mpsc::channel();
+    std::thread::scope(|scope| {
+        for _ in 0..N_WORKERS {
+            let (sender, next) = (sender.clone(), &next);
+            scope.spawn(move || {
+                while let Some(case) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    if sender.send((case.id(), run::run(case))).is_err() {
+                        return;
+                    }
+                }
+            });
+        }
+        drop(sender);
+        let mut waiting = Vec::new();
+        let mut done = Vec::new();
+        for arrived in receiver {
+            waiting.push(arrived);
+            while let Some(at) = cases
+                .get(done.len())
+                .and_then(|case| waiting.iter().position(|(id, _)| *id == case.id()))
+            {
+                let finished = waiting.swap_remove(at).1?;
+                hand_on(&finished)?;
+                done.push(finished);
+            }
+        }
+        Ok(done)
+    })
+}
+
+fn write_files(folder: &Path, done: &Done) -> Result<()> {
+    for (extension, bytes) in done.files()? {
+        let name = format!("{}.{extension}", done.case.id());
+        let path = folder.join(RUNS_FOLDER).join(name);
+        formicar::map::format::write_atomically(&path, &bytes)
+            .with_context(|| format!("{} cannot be written", path.display()))?;
+    }
+    Ok(())
+}

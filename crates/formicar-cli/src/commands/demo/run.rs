@@ -1,0 +1,105 @@
+//! One run of the demo: plan, draw, and keep what the table and the page show.
+
+use super::case::Case;
+use crate::clock::Clock;
+use crate::picture::{self, PictureKind};
+use anyhow::{Context, Result};
+use formicar::numeric::Seed;
+use formicar::planner::{Answer, AnswerContext, Outcome, Planner, PlannerConfig, Timing};
+use formicar::render::{Layout, Picture};
+use std::time::Instant;
+
+/// The seed of every run.
+const SEED: Seed = Seed(0);
+
+/// A run that has ended, with or without a path.
+#[derive(Debug)]
+pub(super) struct Done<'a> {
+    pub(super) case: &'a Case,
+    pub(super) answer: Answer,
+    pub(super) n_steps: u64,
+    /// Largest curvature that the vehicle can drive; infinite for a point.
+    pub(super) max_curvature_per_m: f64,
+    pub(super) picture: Picture,
+    /// The same for narrow screens.
+    pub(super) phone: Picture,
+    png: Option<Vec<u8>>,
+}
+
+/// Carries out a run. An end without a path is no error.
+pub(super) fn run(case: &Case) -> Result<Done<'_>> {
+    let begun = Instant::now();
+    let ground = case.ground()?;
+    let config = PlannerConfig::of(case.planner);
+    let setup = Instant::now();
+    let mut planner = Planner::new(&ground.map, ground.vehicle.vehicle.clone(), config.clone())?;
+    let map_setup_s = setup.elapsed().as_secs_f64();
+
+    let request = case.request();
+    let mut clock = Clock::begin();
+    let result = planner.plan(&request, SEED, &mut clock);
+    let timing = Timing {
+        map_setup_s,
+        first_feasible_s: clock.first_feasible_s(),
+        query_s: clock.query_s(),
+        total_s: begun.elapsed().as_secs_f64(),
+    };
+
+    let context = AnswerContext {
+        obstacles: planner.obstacles(),
+        map: ground.record.clone(),
+        vehicle: &ground.vehicle.vehicle,
+        vehicle_name: &ground.vehicle.name,
+        config: &config,
+    };
+    let answer = context.answer(Some(&request), SEED, &result, timing);
+    let outcome = result.with_context(|| case.id())?;
+    let n_steps = match &outcome {
+        Outcome::Found(plan) => plan.n_steps,
+        Outcome::NotFound(failure) => failure.n_steps,
+    };
+    let drawn = |layout| {
+        let place = (&ground, &**planner.obstacles());
+        let mut picture = picture::of(place, &answer, &outcome, layout);
+        picture.title = format!("{}: {}", case.title(), status(&answer));
+        picture
+    };
+    let (picture, phone) = (drawn(Layout::Page), drawn(Layout::Phone));
+    let png = case
+        .has_png
+        .then(|| picture::encode(&picture, PictureKind::Png));
+    Ok(Done {
+        case,
+        n_steps,
+        max_curvature_per_m: ground.vehicle.vehicle.max_curvature_per_m(),
+        png: png.transpose()?,
+        picture,
+        phone,
+        answer,
+    })
+}
+
+/// The status in words.
+pub(super) fn status(answer: &Answer) -> String {
+    answer.status.replace('_', " ")
+}
+
+impl Done<'_> {
+    /// Whether there is a certified path.
+    pub(super) fn is_found(&self) -> bool {
+        self.answer.path.is_some()
+    }
+
+    /// Its files by extension.
+    pub(super) fn files(&self) -> Result<Vec<(&'static str, Vec<u8>)>> {
+        let mut json = serde_json::to_vec(&self.answer)?;
+        json.push(b'\n');
+        let mut files = vec![
+            ("svg", picture::encode(&self.picture, PictureKind::Svg)?),
+            ("phone.svg", picture::encode(&self.phone, PictureKind::Svg)?),
+            ("json", json),
+        ];
+        files.extend(self.png.clone().map(|png| ("png", png)));
+        Ok(files)
+    }
+}

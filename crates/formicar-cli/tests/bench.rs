@@ -1,0 +1,274 @@
+//! `bench`: tables, what survives a kill, answers, refusals.
+
+mod common;
+
+use common::{Room, Run};
+use std::collections::BTreeSet;
+use std::fs;
+
+/// The rows of a table, by column.
+struct Table {
+    columns: Vec<String>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    fn of(text: &str) -> Self {
+        let mut reader = csv::ReaderBuilder::new()
+            .has_headers(false)
+            .from_reader(text.as_bytes());
+        let mut rows: Vec<Vec<String>> = reader
+            .records()
+            .map(|record| record.expect("a row").iter().map(str::to_owned).collect())
+            .collect();
+        Self {
+            columns: rows.remove(0),
+            rows,
+        }
+    }
+
+    fn get(&self, row: usize, column: &str) -> &str {
+        let column = self.columns.iter().position(|c| c == column);
+        &self.rows[row][column.expect("a column of this name")]
+    }
+
+    /// All values of a column.
+    fn column(&self, column: &str) -> Vec<&str> {
+        (0..self.rows.len()).map(|i| self.get(i, column)).collect()
+    }
+
+    /// The rows without times and memory.
+    fn repeatable(&self) -> Vec<Vec<&str>> {
+        const VARYING: [&str; 6] = [
+            "map_setup_s",
+            "first_feasible_s",
+            "query_s",
+            "total_s",
+            "cpu_s",
+            "peak_rss_bytes",
+        ];
+        let kept = |row: &usize| {
+            let columns = self.columns.iter().map(String::as_str);
+            // A slow machine may know no path yet at 0.1 s.
+            let columns = columns.filter(|c| !VARYING.contains(c) && !c.contains("1s"));
+            columns.map(|c| self.get(*row, c)).collect()
+        };
+        (0..self.rows.len()).map(|row| kept(&row)).collect()
+    }
+}
+
+/// Two maps of two requests each, two seeds.
+const JUNCTIONS: [&str; 9] = [
+    "bench",
+    "narrow-junction",
+    "wang-open",
+    "--planners",
+    "hybrid-astar,astar",
+    "--seeds",
+    "2",
+    "--out",
+    "out",
+];
+
+fn bench(room: &Room, more: &[&str]) -> Run {
+    room.run(&[&JUNCTIONS[..], more].concat())
+}
+
+#[test]
+fn tables_have_the_promised_columns_and_every_run() {
+    let room = Room::new();
+    let run = bench(&room, &["--jobs", "2"]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    assert!(
+        run.stdout
+            .contains("narrow-junction  hybrid-astar  4 of 4 found")
+    );
+    assert!(run.stdout.ends_with("12 runs: see out\n"), "{}", run.stdout);
+    let text = room.read("out/results.csv");
+    assert!(text.starts_with(
+        "scenario,planner,seed,status,valid,map_setup_s,first_feasible_s,query_s,cpu_s,\
+         peak_rss_bytes,length_m,min_clearance_m,n_cusps,"
+    ));
+    let table = Table::of(&text);
+    assert_eq!(table.rows.len(), 12);
+    let keys: Vec<_> = (0..12)
+        .map(|i| ["scenario", "planner", "seed"].map(|c| table.get(i, c)))
+        .collect();
+    assert!(keys.is_sorted());
+    let driven = keys
+        .iter()
+        .position(|k| *k == ["narrow-junction-quarter-turn", "hybrid-astar", "1"])
+        .unwrap();
+    assert_eq!(table.get(driven, "status"), "found");
+    assert_eq!(table.get(driven, "valid"), "true");
+    for column in [
+        "map_setup_s",
+        "first_feasible_s",
+        "query_s",
+        "length_m",
+        "min_clearance_m",
+        "max_curvature_per_m",
+        "steering_share_to_5_deg",
+        "benchmr_aol",
+        "steps",
+        "total_s",
+    ] {
+        let value: f64 = table.get(driven, column).parse().unwrap();
+        assert!(value >= 0.0, "{column}");
+    }
+    if cfg!(target_os = "linux") {
+        let number = |column| table.get(driven, column).parse::<f64>().unwrap();
+        assert!(number("cpu_s") > 0.0 && number("peak_rss_bytes") > 1e6);
+    }
+    let refused = keys
+        .iter()
+        .position(|k| *k == ["wang-open-across", "hybrid-astar", "0"])
+        .unwrap();
+    assert_eq!(table.get(refused, "status"), "invalid_request");
+    assert!(table.get(refused, "reason").contains("point"));
+    assert!(
+        room.read("out/summary.md")
+            .contains("| narrow-junction | hybrid-astar | 4 | 4 | 4 |")
+    );
+    assert!(
+        room.read("out/MACHINE.md")
+            .contains("--planners hybrid-astar,astar")
+    );
+}
+
+#[test]
+fn a_killed_bench_goes_on_where_it_stopped() {
+    let room = Room::new();
+    assert_eq!(bench(&room, &[]).code, 0);
+    let whole = room.read("out/results.csv");
+    let lines: Vec<_> = whole.lines().collect();
+    let torn = [&lines[..6].join("\n"), "\n", &lines[6][..20]].concat();
+    room.write("out/results.csv", torn);
+    let run = bench(&room, &[]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(
+        run.stdout.contains("7 runs, 5 kept from before"),
+        "{}",
+        run.stdout
+    );
+    let again = room.read("out/results.csv");
+    assert_eq!(
+        Table::of(&again).repeatable(),
+        Table::of(&whole).repeatable()
+    );
+    assert!(
+        again.contains(lines[3]),
+        "rows that are complete stay as they are"
+    );
+    let run = bench(&room, &[]);
+    assert!(run.stdout.contains("0 runs, 12 kept from before"));
+    assert_eq!(room.read("out/results.csv"), again);
+    bench(&room, &["--motion", "forward"]).assert_refused(&["settings.json", "forward", "--out"]);
+    assert_eq!(room.read("out/results.csv"), again);
+    room.write("out/results.csv", again.replace(",found,", ",found\n,"));
+    bench(&room, &[]).assert_refused(&["results.csv", "no row of 46 values"]);
+}
+
+#[test]
+fn kept_answers_pass_the_judge() {
+    let room = Room::new();
+    let args = ["bench", "narrow-junction", "--paths", "--out", "out"];
+    assert_eq!(room.run(&args).code, 0);
+    let path = "out/paths/narrow-junction-quarter-turn.hybrid-astar.0.json";
+    let vehicle = "warehouse_amr";
+    let check = [
+        "check",
+        path,
+        "--map",
+        "narrow-junction",
+        "--vehicle",
+        vehicle,
+    ];
+    let run = room.run(&check);
+    assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
+    assert!(run.stdout.starts_with("valid "), "{}", run.stdout);
+    assert_eq!(fs::read_dir(room.path("out/paths")).unwrap().count(), 2);
+    fs::remove_file(room.path(path)).unwrap();
+    let run = room.run(&args);
+    assert!(run.stdout.contains("1 runs, 1 kept"), "{}", run.stdout);
+    assert_eq!(Table::of(&room.read("out/results.csv")).rows.len(), 2);
+    assert!(room.path(path).exists());
+}
+
+/// Lines on a 4 x 3 map with a wall in the middle. Rows count from the top; the second optimum is
+/// wrong.
+fn yard(room: &Room) {
+    let map = "type octile\nheight 3\nwidth 4\nmap\n.@..\n.@..\n....\n";
+    room.write("yard.map", map);
+    let line = |goal: &str, length: &str| format!("0\tyard.map\t4\t3\t0\t2\t{goal}\t{length}\n");
+    let scen = [
+        "version 1\n",
+        &line("3\t2", "3.0000000"),
+        &line("2\t1", "5.0000000"),
+        &line("3\t0", "4.41421356"),
+        "1\tyard.map\t4\t3\t0\t0\t2\t0\t6.0000000\n",
+    ];
+    room.write("yard.map.scen", scen.concat());
+}
+
+#[test]
+fn movingai_lines_are_met_by_both_planners() {
+    let room = Room::new();
+    yard(&room);
+    let scen = ["bench", "yard.map.scen", "--planners", "astar,dijkstra"];
+    let run = room.run(&[&scen[..], &["--out", "out"]].concat());
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let table = Table::of(&room.read("out/results.csv"));
+    assert_eq!(table.rows.len(), 8);
+    assert_eq!(table.column("status"), ["found"; 8]);
+    assert_eq!(table.column("valid"), ["true"; 8]);
+    for i in [0, 1, 4, 5, 6, 7] {
+        let number = |column| table.get(i, column).parse::<f64>().unwrap();
+        let (length, optimum) = (number("length_cells"), number("optimal_length_cells"));
+        assert!((length - optimum).abs() < 1e-4, "{length} is not {optimum}");
+        assert!((number("length_m") - length).abs() < 1e-9);
+    }
+    assert_eq!(table.get(2, "length_cells"), "3.0", "the file says 5");
+    let summary = room.read("out/summary.md");
+    assert!(summary.contains("| 3 of 4 |"), "{summary}");
+    let some = [&scen[..], &["--limit", "2", "--out", "two"]].concat();
+    assert_eq!(room.run(&some).code, 0);
+    let table = Table::of(&room.read("two/results.csv"));
+    let names: BTreeSet<_> = table.column("scenario").into_iter().collect();
+    assert_eq!(names, BTreeSet::from(["yard-00001", "yard-00004"]));
+}
+
+#[test]
+fn wrong_input_is_refused_before_anything_is_started() {
+    let room = Room::new();
+    yard(&room);
+    room.write("other.scen", "version 1\n0\tm\t9\t9\t0\t0\t1\t1\t1.4\n");
+    room.write("other.map", room.read("yard.map"));
+    room.write("lonely.scen", room.read("yard.map.scen"));
+    room.write("empty.json", "{\"version\": 1, \"scenarios\": []}");
+    let cases: [(&[&str], &[&str]); 9] = [
+        (&["nowhere"], &["nowhere", "narrow-junction", "narrow"]),
+        (&["nowhere.json"], &["nowhere.json"]),
+        (&["empty.json"], &["empty.json", "no scenarios"]),
+        (&["yard.map.scen"], &["yard.map.scen", "--planners astar"]),
+        (&["other.scen", "--planners", "astar"], &["9 x 9", "4 x 3"]),
+        (&["lonely.scen", "--planners", "astar"], &["lonely.map"]),
+        (
+            &["narrow", "narrow-junction"],
+            &["two scenarios", "narrow-junction-"],
+        ),
+        (&["narrow", "--planners", "ants"], &["ants", "hybrid-astar"]),
+        (
+            &["narrow", "--set", "weight=2"],
+            &["weight", "hybrid_astar.weight"],
+        ),
+    ];
+    for (args, words) in cases {
+        room.run(&[&["bench", "--out", "out"], args].concat())
+            .assert_refused(words);
+    }
+    assert!(!room.path("out").exists());
+    room.write("taken", "");
+    room.run(&["bench", "narrow", "--out", "taken"])
+        .assert_refused(&["taken"]);
+}
