@@ -108,7 +108,9 @@ mod tests {
             Cell::new(64, 1),
             Cell::new(129, 2),
         ];
-        cells.iter().for_each(|&c| set.insert(c));
+        for cell in cells {
+            set.insert(cell);
+        }
         assert_eq!(set.iter().collect::<Vec<_>>(), cells);
         assert_eq!(set.count(), 4);
         assert!(set.contains(129, 2) && !set.contains(130, 2) && !set.contains(-1, 0));

@@ -87,14 +87,11 @@ impl Planner {
             &mut Limits,
         ) -> Result<GridSearch, SearchError>,
     ) -> Result<Found, SearchError> {
-        let (moves, workspace) = match self.grid.take() {
-            Some(ready) => self.grid.insert(ready),
-            None => {
-                let rule = self.config.grid_search.diagonal_rule;
-                let ready = (MoveMasks::new(&self.blocked(), rule), AstarWorkspace::new());
-                self.grid.insert(ready)
-            }
-        };
+        let ready = self.grid.take().unwrap_or_else(|| {
+            let rule = self.config.grid_search.diagonal_rule;
+            (MoveMasks::new(&self.blocked(), rule), AstarWorkspace::new())
+        });
+        let (moves, workspace) = self.grid.insert(ready);
         limits.tell(&Event::SearchStarted);
         let frame = self.obstacles.frame();
         let cell = |pose: Pose2| frame.cell_at(pose.position()).unwrap_or_default();

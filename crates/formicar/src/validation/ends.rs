@@ -4,7 +4,7 @@ use super::JOINT_TOLERANCE;
 use super::report::{Violation, ViolationKind};
 use crate::geometry::{Pose2, angle_difference};
 use crate::path::{CurvePath, Direction};
-use crate::scenario::{GoalHeading, MotionMode, Request, StartHeading};
+use crate::scenario::{GoalHeading, GoalTolerance, MotionMode, Request, StartHeading};
 use crate::vehicle::{Motion, Vehicle};
 use std::f64::consts::PI;
 
@@ -32,58 +32,35 @@ pub(super) fn check(vehicle: &Vehicle, request: &Request, path: &CurvePath) -> E
         (true, _) | (_, StartHeading::Any) => 0.0,
         (_, StartHeading::Exact) => turn(start, request.start),
     };
-    let length_m = path.length_m();
-    let tolerance = request.goal_tolerance;
-    let off = |kind, s_m, pose, amount: f64, limit: f64, what: &str| {
-        (amount > limit).then(|| Violation {
-            kind,
-            s_m,
-            pose,
-            amount,
-            limit,
-            message: format!("{what} by {amount:.6}; the limit is {limit}"),
-        })
-    };
-    let (at_start, at_goal) = (ViolationKind::Start, ViolationKind::Goal);
-    let violations = [
-        off(
+    let at_start = (ViolationKind::Start, 0.0, start);
+    let at_goal = (ViolationKind::Goal, path.length_m(), end);
+    let GoalTolerance { xy_m, yaw_rad } = request.goal_tolerance;
+    let misses = [
+        (at_start, start_error_m, JOINT_TOLERANCE, "start (metres)"),
+        (
             at_start,
-            0.0,
-            start,
-            start_error_m,
-            JOINT_TOLERANCE,
-            "the path misses the start (metres)",
-        ),
-        off(
-            at_start,
-            0.0,
-            start,
             start_error_rad,
             JOINT_TOLERANCE,
-            "the path misses the start heading (radians)",
+            "start heading (radians)",
         ),
-        off(
-            at_goal,
-            length_m,
-            end,
-            goal_error_m,
-            tolerance.xy_m,
-            "the path misses the goal (metres)",
-        ),
-        off(
-            at_goal,
-            length_m,
-            end,
-            goal_error_rad,
-            tolerance.yaw_rad,
-            "the path misses the goal heading (radians)",
-        ),
-        forbidden_gear(request, path),
+        (at_goal, goal_error_m, xy_m, "goal (metres)"),
+        (at_goal, goal_error_rad, yaw_rad, "goal heading (radians)"),
     ];
+    let misses = misses
+        .into_iter()
+        .filter(|&(_, amount, limit, _)| amount > limit);
+    let violations = misses.map(|((kind, s_m, pose), amount, limit, what)| Violation {
+        kind,
+        s_m,
+        pose,
+        amount,
+        limit,
+        message: format!("the path misses the {what} by {amount:.6}; the limit is {limit}"),
+    });
     Ends {
         goal_error_m,
         goal_error_rad,
-        violations: violations.into_iter().flatten().collect(),
+        violations: violations.chain(forbidden_gear(request, path)).collect(),
     }
 }
 

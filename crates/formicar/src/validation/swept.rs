@@ -99,9 +99,9 @@ fn narrowest(obstacles: &ObstacleMap, body: &Body, drive: &Drive) -> (Pose2, f64
     while (high - low) * drive.signed_length_m.abs() > 1e-3 {
         let (left, right) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
         if clearance(left) <= clearance(right) {
-            high = right
+            high = right;
         } else {
-            low = left
+            low = left;
         }
     }
     let middle = 0.5 * (low + high);

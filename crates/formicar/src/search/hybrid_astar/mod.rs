@@ -26,7 +26,7 @@ use tree::{Node, Tree};
 
 /// Searches a drivable chain of arcs from start to goal, in grid coordinates.
 ///
-/// A step of the limits is a state taken from the open list. The result is the start pose and the
+/// A step of the limits is a motion taken from the open list. The result is the start pose and the
 /// arcs; whether it is certified is the judge's to say.
 ///
 /// # Errors
@@ -60,7 +60,7 @@ pub fn hybrid_astar(
         let left = most_steps.saturating_sub(limits.n_steps());
         match Search::new(problem, &guide).run(patience.min(left), limits) {
             Err(Status::NoPath) => {}
-            ended => return ended.map(|path| problem.from_start(path)),
+            ended => return ended.map(|path| problem.to_request(path)),
         }
     }
     if limits.n_steps() >= most_steps {

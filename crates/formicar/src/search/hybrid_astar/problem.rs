@@ -106,7 +106,7 @@ impl<'a> HybridProblem<'a> {
     }
 
     /// A path found by this search, from the request's start on.
-    pub(super) fn from_start(&self, (start, mut arcs): (Pose2, Vec<Arc>)) -> (Pose2, Vec<Arc>) {
+    pub(super) fn to_request(&self, (start, mut arcs): (Pose2, Vec<Arc>)) -> (Pose2, Vec<Arc>) {
         if self.sense > 0.0 {
             return (start, arcs);
         }
