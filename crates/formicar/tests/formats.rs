@@ -311,7 +311,9 @@ proptest! {
         mut bytes in prop::sample::select(samples()),
         mutations in prop::collection::vec(mutations(), 1..5),
     ) {
-        mutations.iter().for_each(|mutation| mutate(&mut bytes, mutation));
+        for mutation in &mutations {
+            mutate(&mut bytes, mutation);
+        }
         feed_all_parsers(&bytes);
     }
 }
