@@ -1,5 +1,10 @@
 //! The house rules that the compiler does not know: module ranks, and what the library must not
 //! touch.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test suite: helpers outside of tests may fail and say that they skip"
+)]
 
 use std::fs;
 use std::ops::Range;

@@ -1,4 +1,9 @@
 //! Pages that must keep step with the code: links, the table of parameters, the first example.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test suite: helpers outside of tests may fail and say that they skip"
+)]
 
 use formicar::planner::HybridAstarConfig;
 use schemars::schema_for;

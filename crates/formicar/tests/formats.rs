@@ -1,4 +1,9 @@
 //! Map and scenario formats on files by others, and on random bytes.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test suite: helpers outside of tests may fail and say that they skip"
+)]
 
 use formicar::geometry::Pose2;
 use formicar::map::format::{
@@ -306,7 +311,9 @@ proptest! {
         mut bytes in prop::sample::select(samples()),
         mutations in prop::collection::vec(mutations(), 1..5),
     ) {
-        mutations.iter().for_each(|mutation| mutate(&mut bytes, mutation));
+        for mutation in &mutations {
+            mutate(&mut bytes, mutation);
+        }
         feed_all_parsers(&bytes);
     }
 }

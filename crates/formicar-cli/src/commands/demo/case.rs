@@ -138,17 +138,12 @@ impl Case {
             return None;
         }
         let mut words = vec![format!("formicar plan --map {}", self.map.name)];
-        match self.map.request(self.request) {
-            Ok(_) => words.push(format!("--request {}", self.request)),
-            Err(_) => {
-                let pose = |p: Pose2| format!("{},{},{:.0}deg", p.x, p.y, p.heading.to_degrees());
-                words.push(format!(
-                    "--start {} --goal {}",
-                    pose(self.start),
-                    pose(self.goal)
-                ));
-            }
-        }
+        words.push(if self.map.request(self.request).is_ok() {
+            format!("--request {}", self.request)
+        } else {
+            let pose = |p: Pose2| format!("{},{},{:.0}deg", p.x, p.y, p.heading.to_degrees());
+            format!("--start {} --goal {}", pose(self.start), pose(self.goal))
+        });
         if self.planner != PlannerName::default() {
             words.push(format!("--planner {}", self.planner.name()));
         }

@@ -79,11 +79,10 @@ fn carry_out<'a>(
         for _ in 0..N_WORKERS {
             let (sender, next) = (sender.clone(), &next);
             scope.spawn(move || {
-                while let Some(case) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    if sender.send((case.id(), run::run(case))).is_err() {
-                        return;
-                    }
-                }
+                let take = || cases.get(next.fetch_add(1, Ordering::Relaxed));
+                let mut taken = std::iter::from_fn(take).map(|case| (case.id(), run::run(case)));
+                // Nobody listens any more where a result could not be handed on.
+                taken.all(|done| sender.send(done).is_ok())
             });
         }
         drop(sender);
