@@ -5,7 +5,7 @@ use crate::summary::{clearance, counted};
 use anyhow::Result;
 use formicar::collision::{Body, ObstacleMap};
 use formicar::geometry::{Point2, Pose2};
-use formicar::planner::{Answer, Outcome, PathDocument};
+use formicar::planner::{Answer, Outcome, PoseRecord};
 use formicar::render::{Layout, Picture, PlanPicture, ProfilePoint, plan_picture_in};
 use formicar::vehicle::Vehicle;
 
@@ -45,7 +45,7 @@ pub(crate) fn of(
             )
         }
     };
-    let profile = answer.path.as_ref().map(profile).unwrap_or_default();
+    let profile = profile(answer).unwrap_or_default();
     let plan = PlanPicture {
         map: &ground.map,
         vehicle: &ground.vehicle.vehicle,
@@ -82,15 +82,29 @@ pub(crate) fn encode(picture: &Picture, kind: PictureKind) -> Result<Vec<u8>> {
     })
 }
 
-fn profile(path: &PathDocument) -> Vec<ProfilePoint> {
-    let point = |pose: &formicar::planner::PoseRecord| ProfilePoint {
+/// The sampled poses, and between them the tightest place as the judge found it.
+fn profile(answer: &Answer) -> Option<Vec<ProfilePoint>> {
+    let point = |pose: &PoseRecord| ProfilePoint {
         s_m: pose.s,
         curvature_per_m: pose.curvature,
         steer_rad: pose.steer,
         clearance_m: pose.clearance,
         direction: pose.direction,
     };
-    path.poses.iter().map(point).collect()
+    let mut points: Vec<_> = answer.path.as_ref()?.poses.iter().map(point).collect();
+    let report = answer.certificate.as_ref()?;
+    let after = points.partition_point(|point| point.s_m < report.tightest_s_m);
+    if let Some(&next) = points.get(after) {
+        points.insert(
+            after,
+            ProfilePoint {
+                s_m: report.tightest_s_m,
+                clearance_m: report.min_clearance_m,
+                ..next
+            },
+        );
+    }
+    Some(points)
 }
 
 /// Key numbers of a path, or the reason why there is none.

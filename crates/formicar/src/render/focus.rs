@@ -1,28 +1,31 @@
 //! Which part of a map a picture shows: all of it, or the surroundings of a short way.
 
-use super::PlanPicture;
 use super::view::frame_bounds;
+use super::{Layout, PlanPicture};
 use crate::geometry::Point2;
 
-/// Surroundings are shown alone where they take at most this share of the map.
-const MAX_SHARE: f64 = 0.6;
 /// Room around the way, as a share of its longer side.
 const AROUND: f64 = 0.12;
-/// The least and the largest ratio of width to height.
-const RATIOS: (f64, f64) = (0.75, 2.0);
+/// The least ratio of width to height.
+const MIN_RATIO: f64 = 0.75;
 /// Poses along the path that are looked at.
 const N_SAMPLES: f64 = 400.0;
 
 /// Lowest and highest world coordinates to show. Without a path the whole map: what is in the way
 /// may be anywhere.
-pub(super) fn bounds(plan: &PlanPicture) -> (Point2, Point2) {
+pub(super) fn bounds(plan: &PlanPicture, layout: Layout) -> (Point2, Point2) {
     let map = frame_bounds(plan.map.frame());
     let Some(way) = way_bounds(plan) else {
         return map;
     };
-    let part = within(shaped(way), map);
+    // A small screen shows less of the map, and no wide strips of it.
+    let (max_ratio, max_share) = match layout {
+        Layout::Page => (2.0, 0.6),
+        Layout::Phone => (1.25, 0.85),
+    };
+    let part = within(shaped(way, max_ratio), map);
     let area = |(low, high): (Point2, Point2)| (high.x - low.x) * (high.y - low.y);
-    if area(part) <= MAX_SHARE * area(map) {
+    if area(part) <= max_share * area(map) {
         part
     } else {
         map
@@ -56,18 +59,21 @@ fn way_bounds(plan: &PlanPicture) -> Option<(Point2, Point2)> {
     ((high - low).is_finite() && room.is_finite()).then(|| (low - room, high + room))
 }
 
-/// A box widened or heightened to a ratio that fills a page.
-fn shaped((low, high): (Point2, Point2)) -> (Point2, Point2) {
+/// A box widened or heightened to a ratio of width to height that fills a page.
+fn shaped((low, high): (Point2, Point2), max_ratio: f64) -> (Point2, Point2) {
     let size = high - low;
     let more = Point2::new(
-        (RATIOS.0 * size.y - size.x).max(0.0),
-        (size.x / RATIOS.1 - size.y).max(0.0),
+        (MIN_RATIO * size.y - size.x).max(0.0),
+        (size.x / max_ratio - size.y).max(0.0),
     );
     (low - more * 0.5, high + more * 0.5)
 }
 
 /// A box moved, and cut where it is larger, so that it lies in another.
-fn within((low, high): (Point2, Point2), (least, most): (Point2, Point2)) -> (Point2, Point2) {
+pub(super) fn within(
+    (low, high): (Point2, Point2),
+    (least, most): (Point2, Point2),
+) -> (Point2, Point2) {
     let along = |low: f64, high: f64, least: f64, most: f64| {
         let back = (least - low).max(0.0) - (high - most).max(0.0);
         ((low + back).max(least), (high + back).min(most))
@@ -91,7 +97,7 @@ mod tests {
 
     #[test]
     fn a_thin_box_gets_company() {
-        let (low, high) = shaped((Point2::new(0.0, 0.0), Point2::new(8.0, 1.0)));
+        let (low, high) = shaped((Point2::default(), Point2::new(8.0, 1.0)), 2.0);
         assert_eq!(high - low, Point2::new(8.0, 4.0));
     }
 }

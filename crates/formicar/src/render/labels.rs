@@ -1,8 +1,8 @@
 //! Labels on a map, each put where it hides least.
 
 use super::lettering::Lettering;
-use super::palette::Color;
-use super::svg::Svg;
+use super::palette::{Color, PAGE};
+use super::svg::{Element, Svg};
 use crate::geometry::Point2;
 
 const SIZE_PX: f64 = 15.0;
@@ -99,9 +99,15 @@ impl Labels {
             };
             let best = candidates.min_by(|a, b| cost(a).total_cmp(&cost(b)));
             if let Some((_, area)) = best {
+                // A plate, since ground may be as dark as the letters.
+                let plate = Element::rectangle(area.center - half, half * 2.0)
+                    .number("rx", 4.0)
+                    .fill(PAGE)
+                    .text("fill-opacity", "0.86");
+                svg.add(&plate);
                 let base =
                     Point2::new(area.center.x - half.x + 4.0, area.center.y + 0.35 * SIZE_PX);
-                style.write_with_halo(svg, base, &name.text);
+                style.write(svg, base, &name.text);
                 taken.push(area);
             }
         }

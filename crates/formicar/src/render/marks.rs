@@ -17,6 +17,9 @@ const MIN_OUTLINE_PX: f64 = 9.0;
 /// Arrows of poses are at least this long, and so stand out ahead of small vehicles.
 const MIN_ARROW_PX: f64 = 32.0;
 
+/// Radius of the ring around the tightest place.
+const RING_PX: f64 = 12.0;
+
 impl Scene {
     /// A drivable path as true arcs: solid forward, dashed in reverse, a dot at each change.
     pub fn curve(&mut self, path: &CurvePath) -> &mut Self {
@@ -118,12 +121,19 @@ impl Scene {
         if !self.view.shows(at) {
             return self;
         }
-        let casing = Element::circle(at, 12.0).pen(palette::PAGE, 5.0);
+        // At the border of the panel the ring stays whole.
+        let (panel, room) = (self.view.size_px(), RING_PX + 2.0);
+        let at = Point2::new(
+            at.x.clamp(room, panel.x - room),
+            at.y.clamp(room, panel.y - room),
+        );
+        let casing = Element::circle(at, RING_PX).pen(palette::PAGE, 5.0);
         self.body.add(&casing.text("stroke-opacity", "0.85"));
         self.body
-            .add(&Element::circle(at, 12.0).pen(palette::LIMIT, 2.4));
+            .add(&Element::circle(at, RING_PX).pen(palette::LIMIT, 2.4));
         let label = clearance_label(clearance_m);
-        self.labels.name(at, 17.0, (&label, palette::LIMIT));
+        self.labels
+            .name(at, RING_PX + 5.0, (&label, palette::LIMIT));
         self.legend.add("tightest place", Swatch::Ring);
         self
     }

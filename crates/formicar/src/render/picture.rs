@@ -11,10 +11,8 @@ use crate::geometry::Point2;
 
 const GAP_PX: f64 = 26.0;
 /// Width of charts beside a scene, or without one.
-const COLUMN_PX: f64 = 460.0;
+pub(super) const COLUMN_PX: f64 = 460.0;
 const CHARTS_ALONE_PX: f64 = 900.0;
-/// Panels at least this wide have their charts below.
-const WIDE_PANEL_PX: f64 = 720.0;
 const TITLE: Lettering = Lettering::new(22.0, palette::INK).bold();
 const CAPTION: Lettering = Lettering::new(14.0, palette::MUTED);
 const DETAIL: Lettering = Lettering::new(13.0, palette::INK).bold();
@@ -91,7 +89,7 @@ impl Picture {
     fn charts_below(&self, scene: &Scene) -> bool {
         // A lone chart would leave the column beside the scene empty.
         let column = self.charts.len() > 1 || self.detail.is_some();
-        self.layout == Layout::Phone || scene.panel_px().x >= WIDE_PANEL_PX || !column
+        self.layout == Layout::Phone || scene.is_wide() || !column
     }
 
     fn margin_px(&self) -> f64 {

@@ -1,14 +1,17 @@
 //! The picture of a plan: map, poses, path, swept ground, tightest place and strip charts.
 
 use super::style::clearance_label;
+use super::view::frame_bounds;
 use super::{Layout, Picture, PoseMark, ProfilePoint, Scene, focus, strip_charts};
 use crate::geometry::{Point2, Pose2};
 use crate::map::OccupancyGrid;
 use crate::path::CurvePath;
-use crate::vehicle::Vehicle;
+use crate::vehicle::{Motion, Vehicle};
 
-/// A detail is shown where it enlarges the map at least so many times.
-const WORTHWHILE_ENLARGEMENT: f64 = 1.25;
+/// A detail enlarges the map at least so many times.
+const ENLARGEMENT: f64 = 1.8;
+/// Half the side of a detail, at least, to recognize the place by.
+const MIN_HALF_SIDE_CELLS: f64 = 2.0;
 
 /// All that the picture of a plan, or of a failure, is made from.
 #[derive(Clone, Copy, Debug)]
@@ -41,19 +44,18 @@ pub fn plan_picture(plan: &PlanPicture) -> Picture {
 /// The picture of a plan, or of a request without one. Where the way is short beside the map, its
 /// surroundings alone are shown.
 pub fn plan_picture_in(plan: &PlanPicture, layout: Layout) -> Picture {
-    let scene = drawn(Scene::part(plan.map, focus::bounds(plan), layout), plan);
-    let detail = plan.tightest.and_then(|(place, clearance_m)| {
-        let detail = Scene::detail(plan.map, place, detail_half_side_m(plan));
-        let heading = format!("tightest place: {}", clearance_label(clearance_m));
-        let enlarges = detail.px_per_m() >= WORTHWHILE_ENLARGEMENT * scene.px_per_m();
-        enlarges.then(|| (drawn(detail, plan).without_legend(), heading))
-    });
+    let scene = drawn(
+        Scene::part(plan.map, focus::bounds(plan, layout), layout),
+        plan,
+    );
+    let charts = strip_charts(plan.profile, plan.vehicle);
+    let detail = detail(plan, &scene, layout);
     Picture {
         title: plan.title.to_owned(),
         caption: plan.caption.to_owned(),
         scene: Some(scene),
         detail,
-        charts: strip_charts(plan.profile, plan.vehicle),
+        charts,
         layout,
     }
 }
@@ -70,8 +72,21 @@ fn drawn(mut scene: Scene, plan: &PlanPicture) -> Scene {
     scene
 }
 
-/// Two vehicles across, and enough cells to recognize the place.
-fn detail_half_side_m(plan: &PlanPicture) -> f64 {
+/// The tightest place enlarged, and its heading; a point has no body to look at.
+fn detail(plan: &PlanPicture, scene: &Scene, layout: Layout) -> Option<(Scene, String)> {
+    let (place, clearance_m) = plan.tightest?;
+    if plan.vehicle.motion() == Motion::Point {
+        return None;
+    }
+    let side_px = scene.detail_side_px(layout);
     let (low, high) = plan.vehicle.footprint().bounds();
-    (1.1 * (high.x - low.x)).max(6.0 * plan.map.frame().resolution_m())
+    // Two vehicles across, or less where the map itself shows that much.
+    let enlarged_m = 0.5 * side_px / (ENLARGEMENT * scene.px_per_m());
+    let half_side_m = (1.1 * (high.x - low.x)).min(enlarged_m);
+    let half_side_m = half_side_m.max(MIN_HALF_SIDE_CELLS * plan.map.frame().resolution_m());
+    let half = Point2::new(half_side_m, half_side_m);
+    let bounds = focus::within((place - half, place + half), frame_bounds(plan.map.frame()));
+    let detail = drawn(Scene::detail(plan.map, bounds, side_px), plan);
+    let heading = format!("tightest place: {}", clearance_label(clearance_m));
+    Some((detail.without_legend(), heading))
 }

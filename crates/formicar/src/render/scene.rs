@@ -4,6 +4,8 @@ use super::cells::CellLayer;
 use super::labels::Labels;
 use super::legend::{Legend, Swatch};
 use super::palette::{self, Color};
+use super::panel::LEFT_PX;
+use super::picture::COLUMN_PX;
 use super::style::{CellStyle, Dash, Layout, LineStyle};
 use super::svg::{Element, PathData, Svg};
 use super::view::{View, frame_bounds, frame_corners};
@@ -19,8 +21,8 @@ const TALL_PX: Point2 = Point2::new(680.0, 820.0);
 const PHONE_PX: Point2 = Point2::new(330.0, 440.0);
 /// From this ratio of width to height on a map counts as wide.
 const WIDE_RATIO: f64 = 1.4;
-/// Side of the panel of a detail.
-const DETAIL_PX: Point2 = Point2::new(330.0, 330.0);
+/// Panels at least this wide have their charts below.
+const WIDE_PANEL_PX: f64 = 720.0;
 /// Cells of at least this size show their grid lines.
 const GRID_LINES_FROM_PX: f64 = 8.0;
 
@@ -54,11 +56,23 @@ impl Scene {
         Self::with_view(map, View::fit(low, high, max_px))
     }
 
-    /// The square around a place, `half_side_m` to each side: an enlarged detail.
-    pub fn detail(map: &OccupancyGrid, center: Point2, half_side_m: f64) -> Self {
-        let half = Point2::new(half_side_m, half_side_m);
-        let view = View::fit(center - half, center + half, DETAIL_PX);
-        Self::with_view(map, view)
+    /// An enlarged part between two corners, in a square panel.
+    pub(super) fn detail(map: &OccupancyGrid, (low, high): (Point2, Point2), side_px: f64) -> Self {
+        Self::with_view(map, View::fit(low, high, Point2::new(side_px, side_px)))
+    }
+
+    /// Side of the panel of a detail that goes with this scene.
+    pub(super) fn detail_side_px(&self, layout: Layout) -> f64 {
+        match layout {
+            Layout::Phone => self.panel_px().x,
+            Layout::Page if self.is_wide() => 330.0,
+            Layout::Page => COLUMN_PX - LEFT_PX,
+        }
+    }
+
+    /// Whether charts stand below it, for it leaves no room beside.
+    pub(super) fn is_wide(&self) -> bool {
+        self.panel_px().x >= WIDE_PANEL_PX
     }
 
     fn with_view(map: &OccupancyGrid, view: View) -> Self {

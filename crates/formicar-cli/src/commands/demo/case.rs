@@ -3,13 +3,14 @@
 use crate::ground::{self, Ground};
 use anyhow::Result;
 use formicar::geometry::{Point2, Pose2};
-use formicar::map::builtin::BuiltinMap;
+use formicar::map::builtin::{BuiltinKind, BuiltinMap};
 use formicar::map::{GridFrame, OCCUPIED, OccupancyGrid, UnknownPolicy};
 use formicar::planner::{MapRecord, PlannerName};
 use formicar::scenario::{MotionMode, Request};
 
-/// Search steps after which a run gives up: a second or two.
+/// Search steps after which a run gives up: a second or two. In narrow places a step costs more.
 const BUDGET_STEPS: u64 = 100_000;
+const BUDGET_STEPS_NARROW: u64 = 50_000;
 
 /// Where a run stands in the demo.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -122,12 +123,19 @@ impl Case {
         })
     }
 
+    fn budget_steps(&self) -> u64 {
+        match self.map.kind {
+            BuiltinKind::Narrow => BUDGET_STEPS_NARROW,
+            BuiltinKind::Scene | BuiltinKind::GridProblem => BUDGET_STEPS,
+        }
+    }
+
     /// What is asked.
     pub(super) fn request(&self) -> Request {
         let placed = |pose| self.origin.map_or(pose, |origin| origin.compose(pose));
         Request {
             motion: self.motion,
-            budget_steps: Some(BUDGET_STEPS),
+            budget_steps: Some(self.budget_steps()),
             ..Request::new(placed(self.start), placed(self.goal))
         }
     }
@@ -155,7 +163,10 @@ impl Case {
             let corners: Vec<_> = self.keep_out.iter().map(corner).collect();
             words.push(format!("--keep-out \"{}\"", corners.join(" ")));
         }
-        words.push(format!("--budget {BUDGET_STEPS} --picture plan.svg"));
+        words.push(format!(
+            "--budget {} --picture plan.svg",
+            self.budget_steps()
+        ));
         Some(words.join(" "))
     }
 }
