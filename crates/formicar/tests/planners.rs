@@ -20,19 +20,35 @@ struct Case {
 }
 
 fn case(planner: PlannerName) -> Case {
-    let name = if planner == PlannerName::HybridAstar { "lei-map1" } else { "wang-open" };
+    let name = if planner == PlannerName::HybridAstar {
+        "lei-map1"
+    } else {
+        "wang-open"
+    };
     let builtin = builtin::BuiltinMap::by_name(name).expect("a built-in map");
     let vehicle = match planner {
         PlannerName::HybridAstar => Vehicle::preset(builtin.vehicle).expect("a preset"),
         PlannerName::Astar | PlannerName::Dijkstra => Vehicle::point(),
     };
     let ends = &builtin.requests[0];
-    Case { map: builtin.grid(), vehicle, request: Request::new(ends.start, ends.goal) }
+    Case {
+        map: builtin.grid(),
+        vehicle,
+        request: Request::new(ends.start, ends.goal),
+    }
 }
 
-fn plan_with(planner: PlannerName, case: &Case, request: &Request, observer: &mut dyn Observer) -> Outcome {
-    let mut planner = Planner::new(&case.map, case.vehicle.clone(), PlannerConfig::of(planner)).expect("valid parameters");
-    planner.plan(request, Seed(1), observer).expect("a valid request")
+fn plan_with(
+    planner: PlannerName,
+    case: &Case,
+    request: &Request,
+    observer: &mut dyn Observer,
+) -> Outcome {
+    let mut planner = Planner::new(&case.map, case.vehicle.clone(), PlannerConfig::of(planner))
+        .expect("valid parameters");
+    planner
+        .plan(request, Seed(1), observer)
+        .expect("a valid request")
 }
 
 fn found(outcome: Outcome) -> Plan {
@@ -44,7 +60,12 @@ fn solves_its_case_and_passes_the_judge() {
     for name in PlannerName::ALL {
         let case = case(name);
         let plan = found(plan_with(name, &case, &case.request, &mut ()));
-        let report = judge(&ObstacleMap::new(&case.map), &case.vehicle, &case.request, &plan.path);
+        let report = judge(
+            &ObstacleMap::new(&case.map),
+            &case.vehicle,
+            &case.request,
+            &plan.path,
+        );
         assert!(report.valid, "{name:?}: {:?}", report.violations);
         assert_eq!(report.path_hash, plan.certificate.path_hash);
         assert_eq!(plan.metrics.min_clearance_m, report.min_clearance_m);
@@ -55,11 +76,18 @@ fn solves_its_case_and_passes_the_judge() {
 fn the_same_question_gets_the_same_answer_byte_for_byte() {
     for name in PlannerName::ALL {
         let case = case(name);
-        let mut warm = Planner::new(&case.map, case.vehicle.clone(), PlannerConfig::of(name)).expect("valid parameters");
-        let first = found(warm.plan(&case.request, Seed(1), &mut ()).expect("a valid request"));
+        let mut warm = Planner::new(&case.map, case.vehicle.clone(), PlannerConfig::of(name))
+            .expect("valid parameters");
+        let first = found(
+            warm.plan(&case.request, Seed(1), &mut ())
+                .expect("a valid request"),
+        );
         let back = Request::new(case.request.goal, case.request.start);
         let _ = warm.plan(&back, Seed(1), &mut ()).expect("a valid request");
-        let again = found(warm.plan(&case.request, Seed(1), &mut ()).expect("a valid request"));
+        let again = found(
+            warm.plan(&case.request, Seed(1), &mut ())
+                .expect("a valid request"),
+        );
         let cold = found(plan_with(name, &case, &case.request, &mut ()));
         assert_eq!(first.path, again.path, "{name:?}");
         assert_eq!(first.path, cold.path, "{name:?}");
@@ -73,7 +101,10 @@ fn a_budget_stops_it() {
         let case = case(name);
         let all_steps = found(plan_with(name, &case, &case.request, &mut ())).n_steps;
         let limited = |budget| {
-            let request = Request { budget_steps: Some(budget), ..case.request.clone() };
+            let request = Request {
+                budget_steps: Some(budget),
+                ..case.request.clone()
+            };
             plan_with(name, &case, &request, &mut ())
         };
         assert_eq!(limited(all_steps).status(), Status::Found, "{name:?}");
@@ -112,15 +143,32 @@ impl Observer for Watch {
 fn a_deadline_and_a_cancel_stop_it_and_are_named() {
     for name in PlannerName::ALL {
         let case = case(name);
-        let mut watch = Watch { ticks: 0, cancel: true, n_improved: 0 };
-        assert_eq!(plan_with(name, &case, &case.request, &mut watch).status(), Status::Cancelled);
+        let mut watch = Watch {
+            ticks: 0,
+            cancel: true,
+            n_improved: 0,
+        };
+        assert_eq!(
+            plan_with(name, &case, &case.request, &mut watch).status(),
+            Status::Cancelled
+        );
         watch.cancel = false;
-        let hurried = Request { deadline: Some(Duration::from_secs(1)), ..case.request.clone() };
-        assert_eq!(plan_with(name, &case, &hurried, &mut watch).status(), Status::TimedOut);
+        let hurried = Request {
+            deadline: Some(Duration::from_secs(1)),
+            ..case.request.clone()
+        };
+        assert_eq!(
+            plan_with(name, &case, &hurried, &mut watch).status(),
+            Status::TimedOut
+        );
         assert_eq!(watch.n_improved, 0);
-        assert_eq!(plan_with(name, &case, &case.request, &mut watch).status(), Status::Found);
+        assert_eq!(
+            plan_with(name, &case, &case.request, &mut watch).status(),
+            Status::Found
+        );
         assert_eq!(watch.n_improved, 1);
-        let mut planner = Planner::new(&case.map, case.vehicle.clone(), PlannerConfig::of(name)).expect("valid parameters");
+        let mut planner = Planner::new(&case.map, case.vehicle.clone(), PlannerConfig::of(name))
+            .expect("valid parameters");
         let no_clock = planner.plan(&hurried, Seed(1), &mut ());
         assert!(matches!(no_clock, Err(PlanError::DeadlineWithoutClock)));
     }
@@ -136,7 +184,7 @@ fn bad_parameters_are_refused_with_their_range() {
         |c| c.hybrid_astar.angle_quantization_bins = 7,
         |c| c.hybrid_astar.step_radii = 0.0,
         |c| c.hybrid_astar.reverse_penalty = 0.5,
-        |c| c.hybrid_astar.change_penalty = -1.0,
+        |c| c.hybrid_astar.direction_switching_cost = -1.0,
         |c| c.hybrid_astar.clearance_wish_m = f64::INFINITY,
     ];
     for spoil in bad {
@@ -153,19 +201,40 @@ fn start_equal_to_goal_is_found_with_length_0() {
         let case = case(name);
         let request = Request::new(case.request.start, case.request.start);
         let plan = found(plan_with(name, &case, &request, &mut ()));
-        assert!(plan.metrics.length_m < 1e-9, "{name:?}: {}", plan.metrics.length_m);
+        assert!(
+            plan.metrics.length_m < 1e-9,
+            "{name:?}: {}",
+            plan.metrics.length_m
+        );
     }
 }
 
 #[test]
 fn no_grid_planner_beats_another_on_its_own_map() {
-    for name in ["lei-map1", "lei-map2", "lei-map3", "wang-aisles", "wang-open", "aco20"] {
+    for name in [
+        "lei-map1",
+        "lei-map2",
+        "lei-map3",
+        "wang-aisles",
+        "wang-open",
+        "aco20",
+    ] {
         let builtin = builtin::BuiltinMap::by_name(name).expect("a built-in map");
         let ends = &builtin.requests[0];
-        let case = Case { map: builtin.grid(), vehicle: Vehicle::point(), request: Request::new(ends.start, ends.goal) };
-        let lengths = [PlannerName::Astar, PlannerName::Dijkstra]
-            .map(|planner| found(plan_with(planner, &case, &case.request, &mut ())).metrics.length_m);
-        assert!((lengths[0] - lengths[1]).abs() < 1e-9, "{name}: {lengths:?}");
+        let case = Case {
+            map: builtin.grid(),
+            vehicle: Vehicle::point(),
+            request: Request::new(ends.start, ends.goal),
+        };
+        let lengths = [PlannerName::Astar, PlannerName::Dijkstra].map(|planner| {
+            found(plan_with(planner, &case, &case.request, &mut ()))
+                .metrics
+                .length_m
+        });
+        assert!(
+            (lengths[0] - lengths[1]).abs() < 1e-9,
+            "{name}: {lengths:?}"
+        );
     }
 }
 
@@ -173,27 +242,68 @@ fn no_grid_planner_beats_another_on_its_own_map() {
 fn a_cars_detour_on_the_grid_is_refused_by_the_judge_and_says_so() {
     let case = case(PlannerName::HybridAstar);
     let outcome = plan_with(PlannerName::Astar, &case, &case.request, &mut ());
-    let Outcome::NotFound(failure) = outcome else { panic!("a polyline cannot be driven") };
+    let Outcome::NotFound(failure) = outcome else {
+        panic!("a polyline cannot be driven")
+    };
     assert_eq!(failure.status, Status::Infeasible);
-    assert!(failure.reason.contains("turns on the spot") || failure.reason.contains("heading"), "{}", failure.reason);
+    assert!(
+        failure.reason.contains("turns on the spot") || failure.reason.contains("heading"),
+        "{}",
+        failure.reason
+    );
     assert!(failure.refused.is_some());
 }
 
 #[test]
 fn heading_modes_gears_and_tolerances_hold() {
-    let Case { map, vehicle, request } = case(PlannerName::HybridAstar);
-    let case = Case { map, vehicle, request };
-    let ask = |request: Request| found(plan_with(PlannerName::HybridAstar, &case, &request, &mut ()));
-    let forward = ask(Request { motion: MotionMode::Forward, ..case.request.clone() });
+    let Case {
+        map,
+        vehicle,
+        request,
+    } = case(PlannerName::HybridAstar);
+    let case = Case {
+        map,
+        vehicle,
+        request,
+    };
+    let ask = |request: Request| {
+        found(plan_with(
+            PlannerName::HybridAstar,
+            &case,
+            &request,
+            &mut (),
+        ))
+    };
+    let forward = ask(Request {
+        motion: MotionMode::Forward,
+        ..case.request.clone()
+    });
     assert_eq!(forward.metrics.reverse_length_m, 0.0);
     let exact = ask(case.request.clone()).metrics.length_m;
-    let any = Request { start_heading: StartHeading::Any, goal_heading: GoalHeading::Any, ..case.request.clone() };
+    let any = Request {
+        start_heading: StartHeading::Any,
+        goal_heading: GoalHeading::Any,
+        ..case.request.clone()
+    };
     assert!(ask(any).metrics.length_m < 1.1 * exact);
-    let turned = Pose2::at(case.request.goal.position(), case.request.goal.heading + std::f64::consts::PI);
-    let both_ways = Request { goal: turned, goal_heading: GoalHeading::Bidirectional, ..case.request.clone() };
+    let turned = Pose2::at(
+        case.request.goal.position(),
+        case.request.goal.heading + std::f64::consts::PI,
+    );
+    let both_ways = Request {
+        goal: turned,
+        goal_heading: GoalHeading::Bidirectional,
+        ..case.request.clone()
+    };
     assert!(ask(both_ways).metrics.length_m < 1.1 * exact);
-    let wide = GoalTolerance { xy_m: 0.5, yaw_rad: 0.3 };
-    let near = ask(Request { goal_tolerance: wide, ..case.request.clone() });
+    let wide = GoalTolerance {
+        xy_m: 0.5,
+        yaw_rad: 0.3,
+    };
+    let near = ask(Request {
+        goal_tolerance: wide,
+        ..case.request.clone()
+    });
     assert!(near.certificate.goal_error_m <= 0.5 && near.certificate.goal_error_rad <= 0.3);
 }
 
@@ -204,13 +314,28 @@ fn what_is_found_on_random_maps_touches_nothing() {
     let vehicles = [Vehicle::warehouse_amr(), Vehicle::f1tenth()];
     let mut n_found = 0;
     for seed in 0..12 {
-        let parameters = ScatterParameters { n_cols: 120, n_rows: 90, resolution_m: 0.1, density: 0.01, ..ScatterParameters::default() };
+        let parameters = ScatterParameters {
+            n_cols: 120,
+            n_rows: 90,
+            resolution_m: 0.1,
+            density: 0.01,
+            ..ScatterParameters::default()
+        };
         let map = scattered_obstacles(&parameters, Seed(seed)).expect("valid parameters");
         let vehicle = &vehicles[seed as usize % 2];
         for (start, goal) in free_pose_pairs(&map, vehicle, 2, Seed(seed)).unwrap_or_default() {
-            let request = Request { budget_steps: Some(20_000), ..Request::new(start, goal) };
-            let case = Case { map: map.clone(), vehicle: vehicle.clone(), request };
-            if let Outcome::Found(plan) = plan_with(PlannerName::HybridAstar, &case, &case.request, &mut ()) {
+            let request = Request {
+                budget_steps: Some(20_000),
+                ..Request::new(start, goal)
+            };
+            let case = Case {
+                map: map.clone(),
+                vehicle: vehicle.clone(),
+                request,
+            };
+            if let Outcome::Found(plan) =
+                plan_with(PlannerName::HybridAstar, &case, &case.request, &mut ())
+            {
                 n_found += 1;
                 assert_untouched(&case, &plan);
             }
@@ -229,7 +354,10 @@ fn assert_untouched(case: &Case, plan: &Plan) {
         let (low, high) = body.bounds();
         for cell in case.map.lethal_cells().iter() {
             let corner = Point2::new(f64::from(cell.col), f64::from(cell.row)) * resolution;
-            let far = corner.x > high.x || corner.y > high.y || corner.x + resolution < low.x || corner.y + resolution < low.y;
+            let far = corner.x > high.x
+                || corner.y > high.y
+                || corner.x + resolution < low.x
+                || corner.y + resolution < low.y;
             if far {
                 continue;
             }

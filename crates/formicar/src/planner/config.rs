@@ -137,7 +137,13 @@ impl PlannerConfig {
                 1.0,
                 100.0,
             ),
-            ("hybrid_astar.change_penalty", h.change_penalty, 0.0, 1000.0),
+            (
+                "hybrid_astar.direction_switching_cost",
+                h.direction_switching_cost,
+                0.0,
+                1000.0,
+            ),
+            ("hybrid_astar.change_penalty", h.change_penalty, 0.0, 100.0),
             (
                 "hybrid_astar.non_straight_penalty",
                 h.non_straight_penalty,

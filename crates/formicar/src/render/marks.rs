@@ -23,23 +23,27 @@ const RING_PX: f64 = 12.0;
 impl Scene {
     /// A drivable path as true arcs: solid forward, dashed in reverse, a dot at each change.
     pub fn curve(&mut self, path: &CurvePath) -> &mut Self {
-        for gear in path.segments().chunk_by(|a, b| a.direction == b.direction) {
-            let line = self.arcs(gear);
-            let color = gear_color(gear[0].direction);
-            let casing = Element::path(line.clone()).pen(palette::PAGE, 5.0);
+        let gears = || path.segments().chunk_by(|a, b| a.direction == b.direction);
+        for gear in gears() {
+            let casing = Element::path(self.arcs(gear)).pen(palette::PAGE, 5.0);
             self.body.add(&casing.text("stroke-opacity", "0.8"));
-            let line = Element::path(line).pen(color, 2.6);
-            let (label, dash) = match gear[0].direction {
-                Direction::Forward => ("forward", Dash::Solid),
-                Direction::Reverse => ("reverse", Dash::Dashed),
-            };
-            self.body.add(&match dash.pattern() {
-                Some(p) => line
-                    .text("stroke-dasharray", p)
-                    .text("stroke-linecap", "butt"),
-                None => line,
-            });
-            self.legend.add(label, Swatch::Line(color, dash));
+        }
+        // Reverse on top: where a way is driven twice, the line below shows between the dashes.
+        for (direction, label, dash) in [
+            (Direction::Forward, "forward", Dash::Solid),
+            (Direction::Reverse, "reverse", Dash::Dashed),
+        ] {
+            let color = gear_color(direction);
+            for gear in gears().filter(|gear| gear[0].direction == direction) {
+                let line = Element::path(self.arcs(gear)).pen(color, 2.6);
+                self.body.add(&match dash.pattern() {
+                    Some(p) => line
+                        .text("stroke-dasharray", p)
+                        .text("stroke-linecap", "butt"),
+                    None => line,
+                });
+                self.legend.add(label, Swatch::Line(color, dash));
+            }
         }
         for pair in path.segments().windows(2) {
             if pair[0].direction != pair[1].direction {

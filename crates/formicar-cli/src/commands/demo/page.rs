@@ -41,7 +41,9 @@ pub(super) fn html(done: &[Done], total_s: f64) -> String {
         let mut runs = done.iter().filter(|d| d.case.chapter == chapter).peekable();
         if runs.peek().is_some() {
             page.element("h2", chapter.title());
-            runs.for_each(|run| article(&mut page, run));
+            for run in runs {
+                article(&mut page, run);
+            }
         }
     }
     page.raw("</main>\n</body>\n</html>\n");
@@ -69,7 +71,9 @@ fn overview(page: &mut Html, done: &[Done]) {
     for chapter in Chapter::ALL {
         let runs = done.iter().filter(|d| d.case.chapter == chapter);
         page.raw("<tbody>\n");
-        runs.for_each(|run| row(page, run));
+        for run in runs {
+            row(page, run);
+        }
         page.raw("</tbody>\n");
     }
     page.raw("</table>\n</div>\n");

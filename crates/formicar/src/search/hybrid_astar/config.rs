@@ -26,6 +26,9 @@ pub struct HybridAstarConfig {
     pub reverse_penalty: f64,
     /// Cost of a change of gear, metres, 0 to 1000.
     #[schemars(range(min = 0.0, max = 1000.0))]
+    pub direction_switching_cost: f64,
+    /// Added to the factor on an arc that steers the other way than the motion before, 0 to 100.
+    #[schemars(range(min = 0.0, max = 100.0))]
     pub change_penalty: f64,
     /// Factor on the length driven with the wheels turned, 1 to 100.
     #[schemars(range(min = 1.0, max = 100.0))]
@@ -47,8 +50,9 @@ impl Default for HybridAstarConfig {
             angle_quantization_bins: 72,
             step_radii: 0.25,
             reverse_penalty: 2.0,
-            change_penalty: 1.0,
-            non_straight_penalty: 1.05,
+            direction_switching_cost: 1.0,
+            change_penalty: 0.0,
+            non_straight_penalty: 1.2,
             cost_penalty: 1.0,
             clearance_wish_m: 0.3,
         }

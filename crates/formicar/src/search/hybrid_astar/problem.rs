@@ -245,23 +245,35 @@ impl<'a> HybridProblem<'a> {
             0.0
         };
         let switches = before.arc.signed_length_m * arc.signed_length_m < 0.0;
-        let switching = if switches { config.change_penalty } else { 0.0 };
-        switching + self.driving_cost(arc) * (1.0 + config.cost_penalty * near)
+        let switching = if switches {
+            config.direction_switching_cost
+        } else {
+            0.0
+        };
+        let factor = self.gear_factor(arc) * self.steering_factor(before.arc, arc);
+        switching + arc.length_m() * factor * (1.0 + config.cost_penalty * near)
     }
 
-    /// Cost of an arc by its length, gear and steering alone.
-    fn driving_cost(&self, arc: Arc) -> f64 {
-        let gear = if self.sense * arc.signed_length_m < 0.0 {
+    fn gear_factor(&self, arc: Arc) -> f64 {
+        let is_reverse = self.sense * arc.signed_length_m < 0.0;
+        if is_reverse {
             self.config.reverse_penalty
         } else {
             1.0
-        };
-        let steering = if arc.curvature_per_m == 0.0 {
-            1.0
+        }
+    }
+
+    fn steering_factor(&self, before: Arc, arc: Arc) -> f64 {
+        if arc.curvature_per_m == 0.0 {
+            return 1.0;
+        }
+        let swings_over = before.curvature_per_m * arc.curvature_per_m < 0.0;
+        let change = if swings_over {
+            self.config.change_penalty
         } else {
-            self.config.non_straight_penalty
+            0.0
         };
-        arc.length_m() * gear * steering
+        self.config.non_straight_penalty + change
     }
 
     /// Whether a pose is a goal pose within the tolerance; a start must be met by a curve.
