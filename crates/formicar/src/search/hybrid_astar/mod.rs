@@ -41,12 +41,11 @@ pub fn hybrid_astar(
     // A guide that leads astray, or a tight place at the other end, must not cost all the time
     // there is: patience is short where hope is small, and unbounded only at the end.
     let stages = [
-        (Some(problem), turning, PATIENCE_STEPS / 4),
-        (Some(problem), wide, PATIENCE_STEPS / 4),
-        (from_goal.as_ref(), turning, PATIENCE_STEPS / 4),
+        (Some(problem), turning, PATIENCE_STEPS),
+        (from_goal.as_ref(), turning, PATIENCE_STEPS),
+        (Some(problem), wide, PATIENCE_STEPS),
         (Some(&fine), wide, PATIENCE_STEPS / 10),
         (fine_from_goal.as_ref(), wide, PATIENCE_STEPS / 10),
-        (Some(problem), turning, PATIENCE_STEPS),
         (from_goal.as_ref(), wide, PATIENCE_STEPS),
         (fine_from_goal.as_ref(), wide, PATIENCE_STEPS),
         (Some(&fine), wide, PATIENCE_STEPS),
