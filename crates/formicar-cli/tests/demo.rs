@@ -1,6 +1,5 @@
 //! `demo`: its page holds together, and whatever it calls found is certified.
 #![allow(clippy::unwrap_used, reason = "a test may fail where it likes")]
-#![allow(clippy::unwrap_used, reason = "a test may fail where it likes")]
 
 mod common;
 

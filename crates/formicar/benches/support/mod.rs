@@ -1,8 +1,12 @@
 //! Maps for benchmarks.
 #![allow(dead_code, reason = "each benchmark uses a part")]
 
-use formicar::map::{BitGrid, Cell};
+use formicar::map::format::read_car_scenarios;
+use formicar::map::{BitGrid, Cell, OccupancyGrid};
 use formicar::numeric::Seed;
+use formicar::planner::{Planner, PlannerConfig};
+use formicar::scenario::Request;
+use formicar::vehicle::Vehicle;
 use std::path::Path;
 
 /// A town of rectangular blocks of 20 to 60 cells between alleys of 10 to 20, most of them
@@ -78,4 +82,18 @@ fn read_p5(image: &[u8]) -> Option<BitGrid> {
         dark.for_each(|(col, _)| lethal.insert(Cell::new(col as u32, row as u32)));
     }
     Some(lethal)
+}
+
+/// The car queries of that neighborhood, ready to plan.
+pub(crate) fn hood_queries() -> Option<(Planner, Vec<Request>)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/car");
+    let map = OccupancyGrid::read_ros_yaml(folder.join("hood_800x500.yaml")).ok()?;
+    let scenarios = read_car_scenarios(&folder.join("hood_800x500.json")).ok()?;
+    let vehicle = Vehicle::new(scenarios.first()?.vehicle.clone()).ok()?;
+    let planner = Planner::new(&map, vehicle, PlannerConfig::default()).ok()?;
+    let requests = scenarios
+        .iter()
+        .map(|s| Request::new(s.start, s.goal))
+        .collect();
+    Some((planner, requests))
 }

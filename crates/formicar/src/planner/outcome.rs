@@ -109,6 +109,7 @@ impl PlanError {
         match self {
             Self::Scenario(error) => error.into(),
             Self::NotFound(failure) => failure.status.into(),
+            Self::NeedsACar { .. } => ErrorCode::InvalidPlanner,
             _ => ErrorCode::Unknown,
         }
     }

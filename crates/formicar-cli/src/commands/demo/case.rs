@@ -10,7 +10,7 @@ use formicar::scenario::{MotionMode, Request};
 
 /// Search steps after which a run gives up: a second or two. In narrow places a step costs more.
 const BUDGET_STEPS: u64 = 100_000;
-const BUDGET_STEPS_NARROW: u64 = 50_000;
+const BUDGET_STEPS_NARROW: u64 = 100_000;
 
 /// Where a run stands in the demo.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -52,7 +52,7 @@ impl Default for HybridAstarConfig {
             reverse_penalty: 2.0,
             direction_switching_cost: 1.0,
             change_penalty: 0.0,
-            non_straight_penalty: 1.2,
+            non_straight_penalty: 1.07,
             cost_penalty: 1.0,
             clearance_wish_m: 0.3,
         }

@@ -88,8 +88,26 @@ impl<'a> Guide<'a> {
         n_nodes.is_multiple_of(every.min(32))
     }
 
+    /// The way along the goal field, interpolated between the centers of the four cells around,
+    /// since a field of steps would reward weaving from one cell's edge to the next.
     fn field_m(&self, pose: Pose2) -> Option<f64> {
-        let cells = self.field.distance_cells(self.problem.cell(pose)?)?;
-        Some(Self::OCTILE_SHRINK * cells * self.problem.obstacles().frame().resolution_m())
+        let frame = self.problem.obstacles().frame();
+        let here = self.field.distance_cells(self.problem.cell(pose)?)?;
+        let (x, y) = (
+            pose.x / frame.resolution_m() - 0.5,
+            pose.y / frame.resolution_m() - 0.5,
+        );
+        let at = |dx: f64, dy: f64| {
+            let (col, row) = (x.floor() + dx, y.floor() + dy);
+            let inside = (0.0..frame.n_cols() as f64).contains(&col)
+                && (0.0..frame.n_rows() as f64).contains(&row);
+            let cell = inside.then(|| Cell::new(col as u32, row as u32));
+            cell.and_then(|cell| self.field.distance_cells(cell))
+                .unwrap_or(here)
+        };
+        let (u, v) = (x - x.floor(), y - y.floor());
+        let below = (1.0 - u) * at(0.0, 0.0) + u * at(1.0, 0.0);
+        let above = (1.0 - u) * at(0.0, 1.0) + u * at(1.0, 1.0);
+        Some(Self::OCTILE_SHRINK * ((1.0 - v) * below + v * above) * frame.resolution_m())
     }
 }
