@@ -9,7 +9,7 @@ use formicar::planner::{MapRecord, PlannerName};
 use formicar::scenario::{MotionMode, Request};
 
 /// Search steps after which a run gives up: a second or two. In narrow places a step costs more.
-const BUDGET_STEPS: u64 = 100_000;
+const BUDGET_STEPS: u64 = 200_000;
 const BUDGET_STEPS_NARROW: u64 = 100_000;
 
 /// Where a run stands in the demo.

@@ -54,11 +54,14 @@ pub fn hybrid_astar(
     ];
     let most_steps = problem.config().max_iterations;
     for (problem, inflation_m, patience) in stages {
+        let left = most_steps.saturating_sub(limits.n_steps());
+        if left == 0 {
+            return Err(Status::BudgetExhausted);
+        }
         let Some(problem) = problem else { continue };
         let Some(guide) = Guide::new(problem, inflation_m, limits)? else {
             continue;
         };
-        let left = most_steps.saturating_sub(limits.n_steps());
         match Search::new(problem, &guide).run(patience.min(left), limits) {
             Err(Status::NoPath) => {}
             ended => return ended.map(|path| problem.in_driving_order(path)),
