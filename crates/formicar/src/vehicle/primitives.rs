@@ -210,31 +210,44 @@ impl PrimitiveSet {
         turned.rem_euclid(n) as usize
     }
 
-    /// Arcs from any finite heading onto the lattice headings on both sides of it, per gear, at
-    /// least as long as a step; where the heading is on the lattice, one arc of length 0.
+    /// Arcs from any finite heading onto lattice headings, at least as long as a step: per gear
+    /// onto the headings on both sides, and at half and whole steering onto the first heading far
+    /// enough; where the heading is on the lattice, one arc of length 0.
     pub fn alignment_arcs(&self, heading_rad: f64) -> Vec<Alignment> {
-        let heading_index = self.nearest_index(heading_rad);
         let steps = heading_rad / self.step_rad();
-        let excess = steps - steps.round();
-        if excess.abs() < Self::ON_LATTICE {
-            let arc = Arc::default();
+        if (steps - steps.round()).abs() < Self::ON_LATTICE {
+            let (arc, heading_index) = (Arc::default(), self.nearest_index(heading_rad));
             return vec![Alignment { arc, heading_index }];
         }
-        let (n, beyond) = (
-            self.n_headings,
-            if excess > 0.0 { 1 } else { self.n_headings - 1 },
-        );
-        let sides = [
-            (-excess, heading_index),
-            (excess.signum() - excess, (heading_index + beyond) % n),
-        ];
-        let arcs = |&gear_sign: &i8| {
-            sides.map(|(steps, heading_index)| {
-                let arc = self.turning_arc(steps * self.step_rad(), gear_sign);
-                Alignment { arc, heading_index }
-            })
+        let onto = |lattice_steps: f64, arc| Alignment {
+            arc,
+            heading_index: lattice_steps.rem_euclid(self.n_headings as f64) as usize
+                % self.n_headings,
         };
-        self.gears.signs().iter().flat_map(arcs).collect()
+        let of_gear = |&gear_sign: &i8| {
+            let beside = [steps.floor(), steps.ceil()].map(|lattice| {
+                onto(
+                    lattice,
+                    self.turning_arc((lattice - steps) * self.step_rad(), gear_sign),
+                )
+            });
+            let steered = Self::CURVATURE_SHARES[1..].iter().map(move |&share| {
+                let curvature = share * self.max_curvature_per_m;
+                let turned = f64::from(gear_sign) * curvature * self.min_step_m / self.step_rad();
+                let lattice = if turned > 0.0 {
+                    (steps + turned).ceil()
+                } else {
+                    (steps + turned).floor()
+                };
+                let length_m = ((lattice - steps) * self.step_rad() / curvature).abs();
+                onto(
+                    lattice,
+                    Arc::new(curvature, f64::from(gear_sign) * length_m),
+                )
+            });
+            beside.into_iter().chain(steered).collect::<Vec<_>>()
+        };
+        self.gears.signs().iter().flat_map(of_gear).collect()
     }
 
     fn turning_arc(&self, turn_rad: f64, gear_sign: i8) -> Arc {
@@ -313,18 +326,28 @@ mod tests {
     }
 
     #[test]
-    fn alignment_reaches_both_neighbours() {
+    fn alignment_reaches_both_neighbours_and_steers_away() {
         for (vehicle, set) in sets() {
+            let limit = vehicle.max_curvature_per_m();
             for heading in [-9.0, -0.01, 0.02, 1.0, 3.13, 6.27, 100.0] {
                 let arcs = set.alignment_arcs(heading);
-                assert_eq!(arcs.len(), 4);
+                assert_eq!(arcs.len(), 12);
+                let mut n_beside = 0;
                 for Alignment { arc, heading_index } in arcs {
                     let end = arc.end_from(Pose2::new(0.0, 0.0, heading)).heading;
                     let off = angle_difference(end, set.heading_rad(heading_index));
                     assert!(off.abs() < 1e-12, "{heading} {arc:?}: {off}");
-                    assert!(arc.curvature_per_m.abs() <= vehicle.max_curvature_per_m());
-                    assert!((heading - end).abs() <= set.step_rad());
+                    assert!(arc.curvature_per_m.abs() <= limit);
+                    assert!(arc.length_m() >= set.min_step_m * (1.0 - 1e-12));
+                    n_beside += usize::from((heading - end).abs() <= set.step_rad());
                 }
+                assert!(n_beside >= 4);
+                let hardest = |side: f64| {
+                    set.alignment_arcs(heading)
+                        .iter()
+                        .any(|a| a.arc.curvature_per_m == side * limit)
+                };
+                assert!(hardest(1.0) && hardest(-1.0));
             }
             let on_lattice = set.alignment_arcs(set.heading_rad(3) - TAU);
             assert_eq!(on_lattice.len(), 1);
