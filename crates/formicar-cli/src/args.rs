@@ -64,11 +64,11 @@ pub(crate) struct GroundArgs {
     pub(crate) scenario: Option<PathBuf>,
 
     /// Which scenario of a .json file; may be left out where there is one.
-    #[arg(long, requires = "scenario")]
+    #[arg(long, requires = "scenario", conflicts_with = "map")]
     pub(crate) id: Option<String>,
 
     /// Which request of a built-in map; its first by default.
-    #[arg(long, value_name = "ID", requires = "map")]
+    #[arg(long, value_name = "ID", requires = "map", conflicts_with = "scenario")]
     pub(crate) request: Option<String>,
 
     /// Side of a cell, for TPCAP cases (0.1 m by default) and for matrices (1 m by default).
@@ -159,7 +159,12 @@ pub(crate) struct PlanArgs {
     pub(crate) set: Vec<String>,
 
     /// Seed of the run: same seed, same path.
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 0,
+        allow_hyphen_values = true
+    )]
     pub(crate) seed: u64,
 
     /// Most threads to use; the result never depends on it, and hybrid A* runs on one.
@@ -171,7 +176,7 @@ pub(crate) struct PlanArgs {
     pub(crate) deadline: Option<f64>,
 
     /// Search steps after which to give up.
-    #[arg(long, value_name = "STEPS")]
+    #[arg(long, value_name = "STEPS", allow_hyphen_values = true)]
     pub(crate) budget: Option<u64>,
 
     /// Write the answer (.json) or the poses of the path (.csv).

@@ -63,6 +63,8 @@ fn check_writable(path: &Path) -> Result<()> {
         );
     }
     let probe = folder.join(format!(".formicar-probe-{}", std::process::id()));
-    fs::write(&probe, b"").context("hint: give a folder that takes files")?;
+    if let Err(error) = fs::write(&probe, b"") {
+        bail!("{error}; hint: give a folder that takes files");
+    }
     fs::remove_file(&probe).context("the folder keeps its files")
 }

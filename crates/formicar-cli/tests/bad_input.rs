@@ -232,6 +232,7 @@ fn flags_that_contradict_each_other() {
         .assert_refused(&["--stdin"]);
     room.plan(&["--request", "x"])
         .assert_refused(&["--request"]);
+    room.plan(&["--id", "x"]).assert_refused(&["--id"]);
     room.plan(&["--no-such-flag"])
         .assert_refused(&["--no-such-flag"]);
 }

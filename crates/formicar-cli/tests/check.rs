@@ -14,8 +14,28 @@ fn an_answer_is_confirmed_with_its_hashes() {
     let checked = run.json();
     let planned: Value = serde_json::from_str(&room.read("path.json")).unwrap();
     assert_eq!(checked["certificate"], planned["certificate"]);
-    let all_match = json!({"map": true, "vehicle": true, "path": true});
+    let all_match = json!({"map": true, "vehicle": true, "path": true, "numbers": true});
     assert_eq!(checked["matches_record"], all_match);
+}
+
+#[test]
+fn a_tampered_answer_is_told() {
+    let room = Room::new();
+    assert_eq!(room.plan(&["--out", "path.json"]).code, 0);
+    let planned: Value = serde_json::from_str(&room.read("path.json")).unwrap();
+    let check = |changed: &Value| {
+        room.write("tampered.json", changed.to_string());
+        room.run(&["check", "tampered.json", "--map", "room.yaml"])
+    };
+    let mut claim = planned.clone();
+    claim["certificate"]["min_clearance_m"] = json!(5.0);
+    let run = check(&claim);
+    assert!(run.stdout.contains("numbers are not"), "{}", run.stdout);
+    let mut moved = planned;
+    moved["path"]["poses"][1]["y"] = json!(0.1);
+    let run = check(&moved);
+    assert_eq!(run.code, 3, "{}", run.stdout);
+    assert!(run.stdout.contains("poses on record"), "{}", run.stdout);
 }
 
 #[test]

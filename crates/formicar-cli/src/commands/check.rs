@@ -6,8 +6,11 @@ use crate::summary::{clearance, counted, curvature};
 use crate::{files, ground};
 use anyhow::{Context, Result, anyhow};
 use formicar::collision::ObstacleMap;
-use formicar::path::{CurvePath, Direction};
-use formicar::planner::{CertificateHashes, StoredPath};
+use formicar::geometry::wrap_angle;
+use formicar::path::{CurvePath, Direction, PathPose};
+use formicar::planner::{
+    CertificateHashes, CertificateNumbers, POSE_SPACING_M, PoseRecord, StoredPath,
+};
 use formicar::scenario::Request;
 use formicar::validation::{
     CURVATURE_TOLERANCE, FOREIGN_CURVATURE_SLACK, Report, Samples, judge, judge_path,
@@ -33,6 +36,8 @@ struct Checked {
     length_m: f64,
     n_segments: usize,
     certificate: Report,
+    /// Whether the sampled poses of an answer lie on its segments; null of other paths.
+    poses_on_segments: Option<bool>,
     /// Whether the certificate on record was for this map, vehicle and path.
     matches_record: Option<Matches>,
 }
@@ -49,11 +54,17 @@ enum Source {
     Points,
 }
 
+#[allow(
+    clippy::struct_excessive_bools,
+    reason = "one word per thing on record"
+)]
 #[derive(Clone, Copy, Debug, Serialize)]
 struct Matches {
     map: bool,
     vehicle: bool,
     path: bool,
+    /// Whether the certificate's numbers are those the judge finds.
+    numbers: bool,
 }
 
 /// A path to be judged.
@@ -64,7 +75,9 @@ struct Subject {
     source: Source,
     sample_deviation_m: f64,
     request: Option<Request>,
+    poses: Option<Vec<PoseRecord>>,
     hashes: Option<CertificateHashes>,
+    numbers: Option<CertificateNumbers>,
 }
 
 /// Carries out `check`.
@@ -97,7 +110,9 @@ fn read(path: &Path, vehicle: &Vehicle) -> Result<Subject> {
             source: Source::Segments,
             sample_deviation_m: 0.0,
             request: stored.request,
+            poses: Some(stored.poses),
             hashes: stored.hashes,
+            numbers: stored.numbers,
         });
     }
     let samples = Samples::from_csv(&text).with_context(name)?;
@@ -119,7 +134,9 @@ fn read(path: &Path, vehicle: &Vehicle) -> Result<Subject> {
         },
         sample_deviation_m: samples.deviation_m(),
         request: None,
+        poses: None,
         hashes: None,
+        numbers: None,
     })
 }
 
@@ -145,10 +162,16 @@ fn check(subject: &Subject, obstacles: &ObstacleMap, vehicle: &Vehicle) -> Check
         map: record.map_hash == report.map_hash,
         vehicle: record.vehicle_hash == report.vehicle_hash,
         path: record.path_hash == report.path_hash,
+        numbers: subject.numbers.is_some_and(|n| are_numbers_of(n, &report)),
     });
+    // Only a valid path is short enough to be sampled.
+    let poses_on_segments = match &subject.poses {
+        Some(poses) if report.valid => Some(are_on(poses, path)),
+        _ => None,
+    };
     Checked {
         schema: "formicar/check/1",
-        valid: report.valid,
+        valid: report.valid && poses_on_segments != Some(false),
         source: subject.source,
         curvature_slack,
         sample_deviation_m: subject.sample_deviation_m,
@@ -156,8 +179,36 @@ fn check(subject: &Subject, obstacles: &ObstacleMap, vehicle: &Vehicle) -> Check
         length_m: path.length_m(),
         n_segments: path.segments().len(),
         certificate: report,
+        poses_on_segments,
         matches_record,
     }
+}
+
+/// How far numbers on record may be from those found now, in their units: machines round
+/// differently.
+const RECORD_TOLERANCE: f64 = 1e-6;
+
+fn are_numbers_of(record: CertificateNumbers, report: &Report) -> bool {
+    let pairs = [
+        (record.min_clearance_m, report.min_clearance_m),
+        (record.max_curvature_per_m, report.max_curvature_per_m),
+        (record.goal_error_m, report.goal_error_m),
+        (record.goal_error_rad, report.goal_error_rad),
+    ];
+    let is_near = |(was, is): &(f64, f64)| (was - is).abs() <= RECORD_TOLERANCE;
+    record.valid == report.valid && pairs.iter().all(is_near)
+}
+
+/// Whether poses are the samples of a path.
+fn are_on(poses: &[PoseRecord], path: &CurvePath) -> bool {
+    let samples = path.sample(POSE_SPACING_M);
+    let is_at = |(pose, sample): (&PoseRecord, &PathPose)| {
+        let at = sample.pose;
+        (pose.x - at.x).hypot(pose.y - at.y) <= RECORD_TOLERANCE
+            && wrap_angle(pose.heading - at.heading).abs() <= RECORD_TOLERANCE
+            && pose.direction == sample.direction
+    };
+    poses.len() == samples.len() && poses.iter().zip(&samples).all(is_at)
 }
 
 fn first_gear(path: &CurvePath) -> Direction {
@@ -197,6 +248,12 @@ fn explain(checked: &Checked, vehicle: &Vehicle, out: &mut impl Write) -> io::Re
     if let Some(matches) = checked.matches_record {
         writeln!(out, "record     {}", matches.words())?;
     }
+    if checked.poses_on_segments == Some(false) {
+        writeln!(
+            out,
+            "violation  the poses on record are not those of the segments; hint: plan again"
+        )?;
+    }
     for violation in &report.violations {
         writeln!(out, "violation  {}", violation.message)?;
     }
@@ -231,7 +288,9 @@ impl Matches {
             .filter(|(_, same)| !same)
             .map(|p| p.0)
             .collect();
-        if other.is_empty() {
+        if other.is_empty() && !self.numbers {
+            "the certificate's numbers are not those of this map, vehicle and path".to_owned()
+        } else if other.is_empty() {
             "the certificate is for this map, vehicle and path".to_owned()
         } else {
             format!("the certificate is for another {}", other.join(" and "))

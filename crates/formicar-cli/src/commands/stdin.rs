@@ -53,9 +53,16 @@ fn parse(line: &[u8]) -> Result<RequestDocument, String> {
     if line.len() as u64 > MAX_LINE {
         return Err(format!("more than {MAX_LINE} bytes"));
     }
-    serde_json::from_slice(line).map_err(|e| {
-        format!("no request: {e}; hint: {{\"start\": [x, y, heading], \"goal\": [x, y, heading]}}")
-    })
+    let refused = |why: String| {
+        format!(
+            "no request: {why}; hint: {{\"start\": [x, y, heading], \"goal\": [x, y, heading]}}"
+        )
+    };
+    // A list would be taken for the fields in their order, an empty one for all defaults.
+    if !line.trim_ascii_start().starts_with(b"{") {
+        return Err(refused("it is no JSON object".to_owned()));
+    }
+    serde_json::from_slice(line).map_err(|e| refused(e.to_string()))
 }
 
 /// The next line without holding more than [`MAX_LINE`] bytes of it and one to tell.
@@ -88,6 +95,14 @@ mod tests {
         assert_eq!(next().unwrap(), b"");
         assert_eq!(next().unwrap(), b"two");
         assert_eq!(next(), None);
+    }
+
+    #[test]
+    fn a_list_is_not_taken_for_a_request() {
+        for line in ["[]", "[7, [1, 2, 3], [4, 5, 6]]", "null", "7"] {
+            assert!(parse(line.as_bytes()).is_err(), "{line}");
+        }
+        assert!(parse(b" {}\r").is_ok());
     }
 
     #[test]

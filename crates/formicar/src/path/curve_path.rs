@@ -164,7 +164,8 @@ impl CurvePath {
 
     /// Driven length in metres.
     pub fn length_m(&self) -> f64 {
-        self.segments.iter().map(|s| s.length_m).sum()
+        // The sum of nothing is -0; nobody wants to read that.
+        0.0 + self.segments.iter().map(|s| s.length_m).sum::<f64>()
     }
 
     /// The same path seen from another frame: every start pose mapped.

@@ -1,6 +1,6 @@
 //! The answer document: one definition of what every front end prints about a query.
 
-use super::path_document::PathDocument;
+use super::path_document::{PathDocument, PoseRecord};
 use super::{Outcome, PlanError, PlannerConfig, RequestDocument};
 use crate::collision::ObstacleMap;
 use crate::metrics::PathMetrics;
@@ -231,8 +231,27 @@ pub struct StoredPath {
     pub path: CurvePath,
     /// The request that it answered, if that is on record.
     pub request: Option<Request>,
+    /// The sampled poses on record; followers drive these, so they too need a look.
+    pub poses: Vec<PoseRecord>,
     /// Hashes of its certificate, if it has one.
     pub hashes: Option<CertificateHashes>,
+    /// Numbers of its certificate, if it has one.
+    pub numbers: Option<CertificateNumbers>,
+}
+
+/// What a certificate claims about a path.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+pub struct CertificateNumbers {
+    /// Whether the path can be driven.
+    pub valid: bool,
+    /// Least clearance, metres.
+    pub min_clearance_m: f64,
+    /// Largest curvature, 1/m.
+    pub max_curvature_per_m: f64,
+    /// Distance from the goal, metres.
+    pub goal_error_m: f64,
+    /// Angle from the goal heading, radians.
+    pub goal_error_rad: f64,
 }
 
 /// What a certificate vouches for.
@@ -252,7 +271,7 @@ pub struct CertificateHashes {
 pub enum AnswerError {
     /// No JSON, or not this document.
     #[error("no answer document: {0}; hint: it is written by `plan --json` or `plan --out F.json`")]
-    Json(#[from] serde_json::Error),
+    Json(serde_json::Error),
     /// Another document, or another version of it.
     #[error("schema {found:?}; this version reads {ANSWER_SCHEMA:?}")]
     Schema {
@@ -277,13 +296,17 @@ impl StoredPath {
     /// # Errors
     /// Not an answer document of this version, or one without a path.
     pub fn from_json(text: &str) -> Result<Self, AnswerError> {
-        let stored: StoredAnswer = serde_json::from_str(text)?;
+        let stored: StoredAnswer = serde_json::from_str(text).map_err(AnswerError::Json)?;
         if stored.schema != ANSWER_SCHEMA {
             return Err(AnswerError::Schema {
                 found: stored.schema,
             });
         }
         let path = stored.path.as_ref().and_then(PathDocument::curve_path);
+        let (hashes, numbers) = match stored.certificate {
+            Some(certificate) => (Some(certificate.hashes), Some(certificate.numbers)),
+            None => (None, None),
+        };
         let request = stored.provenance.and_then(|p| p.request);
         let defaults = RequestDocument::default();
         Ok(Self {
@@ -291,7 +314,9 @@ impl StoredPath {
                 status: stored.status,
             })?,
             request: request.map(|r| r.onto(&defaults)).transpose()?,
-            hashes: stored.certificate,
+            poses: stored.path.map(|path| path.poses).unwrap_or_default(),
+            hashes,
+            numbers,
         })
     }
 }
@@ -301,8 +326,16 @@ struct StoredAnswer {
     schema: String,
     status: String,
     path: Option<PathDocument>,
-    certificate: Option<CertificateHashes>,
+    certificate: Option<StoredCertificate>,
     provenance: Option<StoredProvenance>,
+}
+
+#[derive(Deserialize)]
+struct StoredCertificate {
+    #[serde(flatten)]
+    hashes: CertificateHashes,
+    #[serde(flatten)]
+    numbers: CertificateNumbers,
 }
 
 #[derive(Deserialize)]

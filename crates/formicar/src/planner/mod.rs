@@ -10,8 +10,8 @@ mod run;
 
 pub use crate::search::HybridAstarConfig;
 pub use answer::{
-    ANSWER_SCHEMA, Answer, AnswerContext, AnswerError, CertificateHashes, MapRecord, Provenance,
-    StoredPath, Timing, VehicleRecord,
+    ANSWER_SCHEMA, Answer, AnswerContext, AnswerError, CertificateHashes, CertificateNumbers,
+    MapRecord, Provenance, StoredPath, Timing, VehicleRecord,
 };
 pub use config::{ConfigError, GridSearchConfig, PlannerConfig, PlannerName};
 pub use outcome::{NotFound, Outcome, Plan, PlanError};

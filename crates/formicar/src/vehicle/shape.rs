@@ -235,7 +235,23 @@ fn body(p: &VehicleParameters) -> Result<ConvexPolygon, VehicleError> {
     ))
 }
 
+/// The largest turning radius, metres: as long as the longest segment that the judge drives. A
+/// curve of a larger one would take unbounded time to follow.
+const MAX_TURNING_RADIUS_M: f64 = 1e5;
+
 fn turning_radius(p: &VehicleParameters) -> Result<f64, VehicleError> {
+    let radius_m = stated_turning_radius(p)?;
+    if radius_m > MAX_TURNING_RADIUS_M {
+        return Err(VehicleError::OutOfRange {
+            name: "min_turning_radius_m",
+            value: radius_m,
+            range: "at most 1e5, stated or implied by max_steer",
+        });
+    }
+    Ok(radius_m)
+}
+
+fn stated_turning_radius(p: &VehicleParameters) -> Result<f64, VehicleError> {
     let from_degrees = p.max_steer_deg.map(f64::to_radians);
     let steer = p.max_steer_rad.or(from_degrees);
     let implied = match (steer, p.wheelbase_m) {
@@ -327,6 +343,20 @@ mod tests {
         assert!(matches!(
             Vehicle::new(still),
             Err(VehicleError::TurnsOnTheSpot { .. })
+        ));
+    }
+
+    #[test]
+    fn refuses_what_hardly_steers_and_would_be_followed_forever() {
+        let straight = VehicleParameters {
+            max_steer_rad: Some(1e-12),
+            max_steer_deg: None,
+            min_turning_radius_m: None,
+            ..car()
+        };
+        assert!(matches!(
+            Vehicle::new(straight),
+            Err(VehicleError::OutOfRange { .. })
         ));
     }
 

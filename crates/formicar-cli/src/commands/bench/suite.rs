@@ -4,7 +4,7 @@
 use crate::args::GroundArgs;
 use crate::files::ScenarioFile;
 use crate::ground;
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, anyhow, bail};
 use formicar::map::builtin::{self, BuiltinKind, BuiltinMap};
 use formicar::map::format::{MovingAiScenario, read_movingai_scenarios};
 use formicar::planner::PlannerName;
@@ -86,7 +86,7 @@ fn of_builtin(word: &str) -> Result<Vec<Task>> {
         name => {
             let hint = "hint: a scenario file is .json, .csv or .scen; `narrow` and `builtin` are \
                         sets of maps";
-            vec![BuiltinMap::by_name(name).context(hint)?]
+            vec![BuiltinMap::by_name(name).map_err(|e| anyhow!("{e}; {hint}"))?]
         }
     };
     let task = |map: &BuiltinMap, request: &str| Task {
