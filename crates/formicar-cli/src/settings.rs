@@ -34,13 +34,15 @@ pub(crate) fn load(
         Some(path) => read(path)?,
         None => Table::new(),
     };
+    let mut config = PlannerConfig::default();
+    if let Some(path) = file {
+        config = typed(&table).with_context(|| path.display().to_string())?;
+    }
     for set in sets {
         apply(&mut table, set)?;
+        config = typed(&table).with_context(|| format!("--set {set:?}"))?;
     }
     let has_planner = planner.is_some() || table.contains_key("planner");
-    let mut config: PlannerConfig = table
-        .try_into()
-        .map_err(|e| anyhow!("planner parameters: {}", one_line(&e)))?;
     if let Some(planner) = planner {
         config.planner = planner;
     }
@@ -49,6 +51,12 @@ pub(crate) fn load(
         config,
         has_planner,
     })
+}
+
+/// The parameters in a table, each of its own type.
+fn typed(table: &Table) -> Result<PlannerConfig> {
+    let config = table.clone().try_into();
+    config.map_err(|e: toml::de::Error| anyhow!("{}", one_line(&e)))
 }
 
 fn read(path: &Path) -> Result<Table> {

@@ -173,6 +173,11 @@ fn parameters_that_nobody_knows() {
         .assert_refused(&["\"weight\"", "hybrid_astar.weight"]);
     room.plan(&["--set", "hybrid_astar.weight=0.5"])
         .assert_refused(&["0.5", "1 to 10"]);
+    room.plan(&["--set", "hybrid_astar.weight=abc"])
+        .assert_refused(&["hybrid_astar.weight=abc", "\"abc\""]);
+    room.write("bad.toml", "[hybrid_astar]\nweight = \"x\"\n");
+    room.plan(&["--config", "bad.toml"])
+        .assert_refused(&["bad.toml", "\"x\""]);
     room.plan(&["--set", "hybrid_astar.weight"])
         .assert_refused(&["KEY=VALUE"]);
 }
