@@ -28,6 +28,7 @@
 
 use super::tangents::{run_end, tangents};
 use crate::geometry::{Point2, Pose2, angle_difference, wrap_angle};
+use crate::numeric::golden_section;
 use crate::path::{CurvePath, CurveSegment, Direction};
 use std::f64::consts::{PI, SQRT_2};
 
@@ -231,20 +232,9 @@ fn least(value: impl Fn(f64) -> f64) -> f64 {
     let best = (1..N_GRID)
         .min_by(|&a, &b| value(at(a)).total_cmp(&value(at(b))))
         .unwrap_or(N_GRID / 2);
-    let (mut low, mut high) = (at(best - 1), at(best + 1));
     // An end of the interval is a biarc without its first or second arc.
-    low = low.max(1e-6);
-    high = high.min(1.0 - 1e-6);
-    let golden = 0.5 * (5_f64.sqrt() - 1.0);
-    for _ in 0..N_SECTIONS {
-        let (a, b) = (high - golden * (high - low), low + golden * (high - low));
-        if value(a) <= value(b) {
-            high = b;
-        } else {
-            low = a;
-        }
-    }
-    0.5 * (low + high)
+    let (low, high) = (at(best - 1).max(1e-6), at(best + 1).min(1.0 - 1e-6));
+    golden_section(value, [low, high], N_SECTIONS)
 }
 
 /// How far a curve may pass by a sample: both coordinates are rounded, at the sample and at the

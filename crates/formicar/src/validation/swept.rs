@@ -3,6 +3,7 @@
 use super::report::{Violation, ViolationKind};
 use crate::collision::{Body, Drive, MIN_CLEARANCE_M, ObstacleMap, Overlap};
 use crate::geometry::Pose2;
+use crate::numeric::golden_section;
 use crate::path::CurvePath;
 use crate::vehicle::Vehicle;
 
@@ -87,7 +88,8 @@ fn cut(obstacles: &ObstacleMap, body: &Body, path: &CurvePath) -> Vec<Piece> {
 /// section around the best.
 fn narrowest(obstacles: &ObstacleMap, body: &Body, drive: &Drive) -> (Pose2, f64) {
     const N_SAMPLES: usize = 16;
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    // From an eighth of a piece, which is half a body long, to about a millimetre.
+    const N_SECTIONS: u32 = 12;
     let clearance = |t: f64| obstacles.clearance_m(body, drive.pose_at(t));
     let sample = |i: usize| i as f64 / N_SAMPLES as f64;
     let best = (0..=N_SAMPLES)
@@ -95,16 +97,8 @@ fn narrowest(obstacles: &ObstacleMap, body: &Body, drive: &Drive) -> (Pose2, f64
         .min_by(|&a, &b| clearance(a).total_cmp(&clearance(b)))
         .unwrap_or(0.0);
     let width = 1.0 / N_SAMPLES as f64;
-    let (mut low, mut high) = ((best - width).max(0.0), (best + width).min(1.0));
-    while (high - low) * drive.signed_length_m.abs() > 1e-3 {
-        let (left, right) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
-        if clearance(left) <= clearance(right) {
-            high = right;
-        } else {
-            low = left;
-        }
-    }
-    let middle = 0.5 * (low + high);
+    let around = [(best - width).max(0.0), (best + width).min(1.0)];
+    let middle = golden_section(clearance, around, N_SECTIONS);
     let t = if clearance(best) <= clearance(middle) {
         best
     } else {

@@ -1,6 +1,7 @@
 //! Directions of motion at points without headings.
 
 use crate::geometry::{Point2, wrap_angle};
+use crate::numeric::golden_section;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 /// The index of the last point of the run without cusps that begins at `first`.
@@ -105,7 +106,8 @@ fn flatten(angles: &mut [f64], chords: &[Point2], unsettled: &[usize]) {
                     .map_or(0.0, |&chord| biarc_bend(chord, angle, angles[i + 1]));
                 before.powi(8) + after.powi(8)
             };
-            angles[i] = lowest(bend, angles[i] - FRAC_PI_4, angles[i] + FRAC_PI_4);
+            let around = [angles[i] - FRAC_PI_4, angles[i] + FRAC_PI_4];
+            angles[i] = golden_section(bend, around, 24);
         }
     }
 }
@@ -119,20 +121,6 @@ fn biarc_bend(chord: Polar, from: f64, to: f64) -> f64 {
     let (a, b) = (wrap_angle(from - chord.angle), wrap_angle(to - chord.angle));
     let (sigma, gamma) = (0.5 * (a + b), b - a);
     (2.0 * sigma.abs() + (4.0 * sigma * sigma + gamma * gamma).sqrt()) / chord.length
-}
-
-/// Where a convex function is least between two places, by golden sections.
-fn lowest(value: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    let golden = 0.5 * (5_f64.sqrt() - 1.0);
-    for _ in 0..24 {
-        let (a, b) = (high - golden * (high - low), low + golden * (high - low));
-        if value(a) <= value(b) {
-            high = b;
-        } else {
-            low = a;
-        }
-    }
-    0.5 * (low + high)
 }
 
 /// The direction of motion at one of three points of a circle.
