@@ -6,15 +6,17 @@
 //!
 //! Modules are ranked, and each uses only those before it: [`numeric`], [`geometry`], [`vehicle`],
 //! [`map`], [`path`], [`collision`], [`scenario`], [`validation`], [`metrics`], [`progress`],
-//! [`search`], [`planner`], [`render`]. SI units and radians inside; a pose is the center of the
+//! [`objective`], [`search`], [`colony`], [`planner`], [`render`]. SI units and radians inside; a pose is the center of the
 //! rear axle, x forward, y left, heading counter-clockwise.
 #![forbid(unsafe_code)]
 
 pub mod collision;
+pub mod colony;
 pub mod geometry;
 pub mod map;
 pub mod metrics;
 pub mod numeric;
+pub mod objective;
 pub mod path;
 pub mod planner;
 pub mod progress;

@@ -1,9 +1,13 @@
 //! Random streams and integration: the numbers that everything else is made of.
 
+mod gamma;
 mod golden_section;
 mod random;
+mod range;
 mod runge_kutta;
 
+pub use gamma::ln_gamma;
 pub use golden_section::golden_section;
 pub use random::{RandomStream, Seed};
+pub use range::{OutOfRange, check_range};
 pub use runge_kutta::rk4_step;

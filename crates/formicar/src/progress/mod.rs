@@ -1,5 +1,9 @@
 //! How a run is watched, timed, limited and stopped; how it may end.
 
+mod iteration;
+
+pub use iteration::{AntWays, ColonyView, IterationRecord, path_of};
+
 use crate::scenario::ErrorCode;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
@@ -27,7 +31,7 @@ impl Observer for () {}
 /// What a run tells its observer.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Event {
+pub enum Event<'a> {
     /// The map is ready for queries.
     MapReady,
     /// The fields of the query are ready and the search begins.
@@ -44,6 +48,8 @@ pub enum Event {
         /// Search steps so far.
         n_steps: u64,
     },
+    /// A colony ended an iteration.
+    Iteration(ColonyView<'a>),
 }
 
 /// How a run ended.
@@ -134,6 +140,16 @@ impl<'a> Limits<'a> {
         Ok(())
     }
 
+    /// Counts as many of `n_wanted` steps as the budget still allows; how many that were.
+    pub fn take(&mut self, n_wanted: u64) -> u64 {
+        let n_left = self
+            .budget_steps
+            .map_or(n_wanted, |budget| budget - self.n_steps);
+        let n_taken = n_wanted.min(n_left);
+        self.n_steps += n_taken;
+        n_taken
+    }
+
     /// Looks at the cancel flag and the clock now.
     ///
     /// # Errors
@@ -194,6 +210,14 @@ mod tests {
         assert!((0..3).all(|_| limits.step().is_ok()));
         assert_eq!(limits.step(), Err(Status::BudgetExhausted));
         assert_eq!(limits.n_steps(), 3);
+    }
+
+    #[test]
+    fn steps_are_taken_while_the_budget_lasts() {
+        let mut nobody = ();
+        let mut limits = Limits::new(&mut nobody, Some(5), None);
+        assert_eq!([3, 3, 3].map(|n| limits.take(n)), [3, 2, 0]);
+        assert_eq!(limits.n_steps(), 5);
     }
 
     #[test]

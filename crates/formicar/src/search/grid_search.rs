@@ -98,7 +98,7 @@ impl From<Status> for SearchError {
 }
 
 /// Checks that something may stand on a cell.
-pub(super) fn check_end(
+pub(crate) fn check_end(
     moves: &MoveMasks,
     end: &'static str,
     cell: Cell,

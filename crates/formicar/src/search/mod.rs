@@ -11,6 +11,7 @@ mod passage;
 pub use astar::{AstarWorkspace, astar};
 pub use cost::{DIAGONAL_COST, STRAIGHT_COST};
 pub use goal_field::GoalField;
+pub(crate) use grid_search::check_end;
 pub use grid_search::{GridSearch, SearchError};
 pub use hybrid_astar::{HybridAstarConfig, HybridProblem, hybrid_astar};
 pub use passage::{Passage, widest_passage};

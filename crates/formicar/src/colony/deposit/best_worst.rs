@@ -1,0 +1,32 @@
+//! The best way so far gains, the worst so far loses (Wang 2019).
+
+use super::{Memory, Portion, along};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// +Q / l along the best way so far and -Q / l along the worst so far: Wang 2019 (10-12).
+///
+/// Both where both pass; nothing is taken where the worst costs no more than the best.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct BestWorst {
+    /// Q, from 1e-6 to 1e9.
+    pub q: f64,
+}
+
+impl Default for BestWorst {
+    fn default() -> Self {
+        Self { q: 100.0 }
+    }
+}
+
+impl BestWorst {
+    pub(super) fn deposits<'a>(&self, memory: &'a Memory) -> Vec<Portion<'a>> {
+        let (Some(best), Some(worst)) = (&memory.best, &memory.worst) else {
+            return Vec::new();
+        };
+        let gain = along(Some(best), self.q);
+        let loss = (worst.cost > best.cost).then(|| along(Some(worst), -self.q));
+        gain.into_iter().chain(loss.flatten()).collect()
+    }
+}

@@ -1,0 +1,66 @@
+//! Pheromone that falls with the distance from the line between start and goal.
+
+use super::PheromoneUnit;
+use crate::map::Cell;
+use crate::numeric::{OutOfRange, check_range};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// tau0 = `tau_min` + (`tau_max` - `tau_min`) (1 - d / `d_max`) with the distance d of a cell from
+/// the line through start and goal, `d_max` the largest on the map: Lei & Zheng 2020, sec. II.D.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct LineGradient {
+    /// Pheromone farthest from the line, from 1e-6 to 1e6 units.
+    pub tau_min: f64,
+    /// Pheromone on the line, from 1e-6 to 1e6 units.
+    pub tau_max: f64,
+    /// What a unit is.
+    pub unit: PheromoneUnit,
+}
+
+impl Default for LineGradient {
+    fn default() -> Self {
+        Self {
+            tau_min: 1.0,
+            tau_max: 2.0,
+            unit: PheromoneUnit::Deposit,
+        }
+    }
+}
+
+impl LineGradient {
+    pub(super) fn check(&self) -> Result<(), OutOfRange> {
+        check_range("colony.initial.tau_min", self.tau_min, 1e-6..=1e6)?;
+        check_range("colony.initial.tau_max", self.tau_max, 1e-6..=1e6)
+    }
+
+    pub(super) fn values(&self, (n_cols, n_rows): (usize, usize), ends: [Cell; 2]) -> Vec<f64> {
+        let [(x0, y0), (x1, y1)] = ends.map(|cell| (f64::from(cell.col), f64::from(cell.row)));
+        let (dx, dy) = (x1 - x0, y1 - y0);
+        let length = dx.hypot(dy).max(1.0);
+        let distance = |col: usize, row: usize| {
+            ((row as f64 - y0) * dx - (col as f64 - x0) * dy).abs() / length
+        };
+        let cells = (0..n_rows).flat_map(|row| (0..n_cols).map(move |col| (col, row)));
+        let distances: Vec<f64> = cells.map(|(col, row)| distance(col, row)).collect();
+        let farthest = distances.iter().copied().fold(0.0, f64::max).max(1.0);
+        let range = self.tau_max - self.tau_min;
+        let tau = |d: f64| self.tau_min + range * (1.0 - d / farthest);
+        distances.into_iter().map(tau).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn falls_from_the_line_to_the_farthest_corner() {
+        let ends = [Cell::new(0, 0), Cell::new(4, 4)];
+        let values = LineGradient::default().values((5, 5), ends);
+        assert!((values[0] - 2.0).abs() < 1e-12 && (values[12] - 2.0).abs() < 1e-12);
+        assert!((values[4] - 1.0).abs() < 1e-12 && (values[20] - 1.0).abs() < 1e-12);
+        assert!((values[2] - 1.5).abs() < 1e-12, "{}", values[2]);
+    }
+}

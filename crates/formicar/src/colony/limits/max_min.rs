@@ -1,0 +1,56 @@
+//! The limits of the MAX-MIN Ant System (Stützle & Hoos 2000).
+
+use crate::colony::generation::Way;
+use crate::numeric::{OutOfRange, check_range};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// `tau_max` = Q / (rho F) with the cost F of the best path so far, and
+/// `tau_min` = `tau_max` (1 - p^(1/n)) / ((c - 1) p^(1/n)): with these limits a converged colony
+/// walks its best path of n steps again with probability p, where ants choose from c steps on
+/// average (Stützle & Hoos 2000, equations 7 and 11).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct MaxMin {
+    /// p, from 1e-6 to 1; 1 leaves no lower limit.
+    pub p_best: f64,
+}
+
+impl Default for MaxMin {
+    fn default() -> Self {
+        Self { p_best: 0.05 }
+    }
+}
+
+impl MaxMin {
+    pub(super) fn check(&self) -> Result<(), OutOfRange> {
+        check_range("colony.limits.p_best", self.p_best, 1e-6..=1.0)
+    }
+
+    pub(super) fn range(&self, n_choices: f64, lasting: f64, best: &Way) -> (f64, f64) {
+        let high = lasting / best.cost.max(f64::MIN_POSITIVE);
+        let p = self.p_best.powf(1.0 / best.steps.len().max(1) as f64);
+        let share = (1.0 - p) / ((n_choices - 1.0).max(1.0) * p);
+        (high * share.min(1.0), high)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_are_those_of_the_paper() {
+        let best = Way {
+            steps: vec![0; 50],
+            cost: 50.0,
+            length: 50.0,
+        };
+        let (low, high) = MaxMin::default().range(4.0, 1.0 / 0.02, &best);
+        assert!((high - 1.0).abs() < 1e-12);
+        let p = 0.05_f64.powf(0.02);
+        assert!((low - (1.0 - p) / (3.0 * p)).abs() < 1e-12);
+        let (none, _) = MaxMin { p_best: 1.0 }.range(4.0, 50.0, &best);
+        assert_eq!(none, 0.0);
+    }
+}

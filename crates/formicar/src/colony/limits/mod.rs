@@ -1,0 +1,66 @@
+//! Between which limits pheromone is kept.
+
+mod floor;
+mod max_min;
+
+pub use floor::Floor;
+pub use max_min::MaxMin;
+
+use super::generation::Way;
+use super::node::Node;
+use super::problem::Ground;
+use crate::numeric::OutOfRange;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Between which limits pheromone is kept after each iteration.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "rule", rename_all = "kebab-case")]
+pub enum PheromoneLimits {
+    /// None.
+    #[default]
+    None,
+    /// No less than a share of what there was at first.
+    Floor(Floor),
+    /// Those of the MAX-MIN Ant System.
+    MaxMin(MaxMin),
+}
+
+/// What limits refer to.
+pub(super) struct Bounds {
+    /// The least initial pheromone.
+    initial: f64,
+    /// Mean number of steps that an ant can choose from in a cell.
+    n_choices: f64,
+}
+
+impl Bounds {
+    pub(super) fn new(initial: &[f64], ground: &Ground, nodes: &[Node]) -> Self {
+        let n_cells = ground.cells.len().max(1) as f64;
+        let n_steps = |&cell: &u32| nodes[cell as usize].allowed.count_ones();
+        Self {
+            initial: initial.iter().copied().fold(f64::INFINITY, f64::min),
+            n_choices: f64::from(ground.cells.iter().map(n_steps).sum::<u32>()) / n_cells,
+        }
+    }
+}
+
+impl PheromoneLimits {
+    pub(super) fn check(&self) -> Result<(), OutOfRange> {
+        match self {
+            Self::None => Ok(()),
+            Self::Floor(rule) => rule.check(),
+            Self::MaxMin(rule) => rule.check(),
+        }
+    }
+
+    /// Least and most pheromone. `lasting` is Q / rho: what is left of the deposits Q / F of one
+    /// ant in the long run, times F.
+    pub(super) fn range(&self, bounds: &Bounds, lasting: f64, best: Option<&Way>) -> (f64, f64) {
+        match (self, best) {
+            (Self::Floor(rule), _) => (rule.share * bounds.initial, f64::INFINITY),
+            (Self::MaxMin(rule), Some(best)) => rule.range(bounds.n_choices, lasting, best),
+            _ => (0.0, f64::INFINITY),
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! What an ant reads of a cell, in one cache line.
+
+use super::footmarks::Place;
+
+/// A cell as ants see it during an iteration.
+#[derive(Clone, Debug, Default)]
+#[repr(align(64))]
+pub(super) struct Node {
+    /// Weights of the steps, those of allowed ones at least 1 and below 2^28.
+    weights: [u32; 8],
+    pub(super) place: Place,
+    /// Allowed steps, a bit each.
+    pub(super) allowed: u8,
+    /// Steps of the first class.
+    pub(super) first_class: u8,
+}
+
+/// The largest weight: eight of them still fit 32 bits.
+const MAX_WEIGHT: f32 = ((1 << 28) - 1) as f32;
+
+impl Node {
+    /// A node without weights.
+    pub(super) fn new(place: Place, allowed: u8, first_class: u8) -> Self {
+        Self {
+            weights: [0; 8],
+            place,
+            allowed,
+            first_class,
+        }
+    }
+
+    /// Sets the weights from finite products of pheromone and desire; only those of allowed steps
+    /// matter, and of these only the proportions.
+    ///
+    /// As integers they add up without rounding, so that no draw can land on a weight of zero.
+    pub(super) fn set_weights(&mut self, products: [f32; 8]) {
+        let largest = products.iter().copied().fold(f32::MIN_POSITIVE, f32::max);
+        let scale = MAX_WEIGHT / largest;
+        self.weights = products.map(|product| (product * scale) as u32 | 1);
+    }
+
+    /// Draws one of the steps in a set that is not empty, by weight.
+    #[inline]
+    pub(super) fn draw(&self, steps: u8, random: u32) -> usize {
+        let kept: [u32; 8] = std::array::from_fn(|i| {
+            self.weights[i] & 0_u32.wrapping_sub(u32::from(steps) >> i & 1)
+        });
+        let mut sums = kept;
+        // Two halves side by side, then the second on top of the first.
+        for i in 1..4 {
+            sums[i] += sums[i - 1];
+            sums[i + 4] += sums[i + 3];
+        }
+        for i in 4..8 {
+            sums[i] += sums[3];
+        }
+        let drawn = ((u64::from(random) * u64::from(sums[7])) >> 32) as u32;
+        sums.iter().map(|&sum| usize::from(sum <= drawn)).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numeric::Seed;
+
+    #[test]
+    fn draws_by_weight_and_only_from_the_set() {
+        let mut node = Node::default();
+        node.set_weights([1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 1e-30]);
+        let mut stream = Seed(1).stream([0, 0]);
+        let mut counts = [0_u32; 8];
+        for _ in 0..90_000 {
+            counts[node.draw(0b1010_1010, (stream.next_u64() >> 32) as u32)] += 1;
+        }
+        let shares = counts.map(|n| f64::from(n) / 90_000.0);
+        for (step, expected) in [0.0, 2.0, 0.0, 4.0, 0.0, 6.0, 0.0, 0.0]
+            .into_iter()
+            .enumerate()
+        {
+            assert!((shares[step] - expected / 12.0).abs() < 0.01, "{shares:?}");
+        }
+        assert_eq!(node.draw(0b1000_0000, u32::MAX), 7);
+        assert_eq!(node.draw(0b0000_0001, 0), 0);
+    }
+}

@@ -1,0 +1,40 @@
+//! The colonies of papers, each with every parameter.
+//!
+//! Where a paper states no value, it is read from what the paper says or chosen; the pages in
+//! `references/` mark each one.
+
+mod ant_system;
+mod elitist;
+mod joshy2016;
+mod lei2020;
+mod max_min;
+mod wang2019;
+mod zhang2016;
+
+pub use ant_system::ant_system;
+pub use elitist::elitist;
+pub use joshy2016::joshy2016;
+pub use lei2020::lei2020;
+pub use max_min::max_min;
+pub use wang2019::wang2019;
+pub use zhang2016::zhang2016;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_preset_is_within_its_ranges() {
+        for preset in [
+            ant_system(),
+            elitist(),
+            max_min(),
+            lei2020(),
+            wang2019(),
+            zhang2016(),
+            joshy2016(),
+        ] {
+            preset.check().unwrap();
+        }
+    }
+}

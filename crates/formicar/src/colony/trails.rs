@@ -1,0 +1,140 @@
+//! Pheromone, on cells or on steps from cell to cell.
+
+use super::config::TrailLayout;
+use super::node::Node;
+use super::problem::{Ground, steps_in};
+
+/// Pheromone of all cells, row by row, or of their steps, eight to a cell; not a number where no
+/// ant can go.
+pub(super) struct Trails {
+    layout: TrailLayout,
+    values: Vec<f32>,
+}
+
+/// Pheromone counts as gone below this; a floor keeps arithmetic off denormal numbers.
+const NOTHING: f32 = 1e-30;
+
+impl Trails {
+    /// Trails with an initial value by cell; a step has that of the cell that it leads to.
+    pub(super) fn new(
+        layout: TrailLayout,
+        initial: &[f64],
+        ground: &Ground,
+        nodes: &[Node],
+    ) -> Self {
+        let per_cell = match layout {
+            TrailLayout::Cells => 1,
+            TrailLayout::Edges => 8,
+        };
+        let mut values = vec![f32::NAN; initial.len() * per_cell];
+        for &cell in &ground.cells {
+            let cell = cell as usize;
+            match layout {
+                TrailLayout::Cells => values[cell] = initial[cell] as f32,
+                TrailLayout::Edges => {
+                    for step in steps_in(nodes[cell].allowed) {
+                        let to = cell.wrapping_add_signed(ground.offsets[step]);
+                        values[8 * cell + step] = initial[to] as f32;
+                    }
+                }
+            }
+        }
+        Self { layout, values }
+    }
+
+    /// Sets the weights of all nodes to pheromone to the power of `alpha`, times desire.
+    pub(super) fn weigh(&self, alpha: f64, ground: &Ground, nodes: &mut [Node]) {
+        // Only proportions matter: relative to the strongest no power overflows.
+        let (alpha, unit) = (alpha as f32, 1.0 / self.range().1);
+        for &cell in &ground.cells {
+            let cell = cell as usize;
+            let node = &mut nodes[cell];
+            let mut products = ground.desire[cell];
+            for step in steps_in(node.allowed) {
+                let tau = match self.layout {
+                    TrailLayout::Cells => {
+                        self.values[cell.wrapping_add_signed(ground.offsets[step])]
+                    }
+                    TrailLayout::Edges => self.values[8 * cell + step],
+                };
+                let share = tau * unit;
+                products[step] *= if alpha == 1.0 {
+                    share
+                } else {
+                    share.powf(alpha)
+                };
+            }
+            node.set_weights(products);
+        }
+    }
+
+    /// Leaves the rest of all pheromone after a share `rho` has evaporated.
+    pub(super) fn evaporate(&mut self, rho: f64) {
+        let kept = (1.0 - rho) as f32;
+        for tau in &mut self.values {
+            *tau *= kept;
+        }
+    }
+
+    /// Adds to the pheromone along a way from the start, or takes from it.
+    pub(super) fn deposit(&mut self, ground: &Ground, steps: &[u8], amount: f64) {
+        let amount = amount as f32;
+        let mut at = ground.start;
+        match self.layout {
+            TrailLayout::Cells => {
+                self.values[at] += amount;
+                for &step in steps {
+                    at = at.wrapping_add_signed(ground.offsets[usize::from(step)]);
+                    self.values[at] += amount;
+                }
+            }
+            TrailLayout::Edges => {
+                for &step in steps {
+                    self.values[8 * at + usize::from(step)] += amount;
+                    at = at.wrapping_add_signed(ground.offsets[usize::from(step)]);
+                }
+            }
+        }
+    }
+
+    /// Keeps all pheromone between limits, and above nothing.
+    pub(super) fn clamp(&mut self, low: f64, high: f64) {
+        let low = (low as f32).max(NOTHING);
+        let high = (high as f32).clamp(low, f32::MAX);
+        for tau in &mut self.values {
+            *tau = tau.clamp(low, high);
+        }
+    }
+
+    /// The least and the most pheromone where ants can go.
+    pub(super) fn range(&self) -> (f32, f32) {
+        // Either is the other operand where one is not a number.
+        let range = (f32::INFINITY, f32::NEG_INFINITY);
+        self.values
+            .iter()
+            .fold(range, |(low, high), &tau| (low.min(tau), high.max(tau)))
+    }
+
+    pub(super) fn values(&self) -> &[f32] {
+        &self.values
+    }
+
+    /// Pheromone by cell, that of a cell being the most on a step to it.
+    pub(super) fn by_cell(self, ground: &Ground) -> Vec<f32> {
+        if self.layout == TrailLayout::Cells {
+            return self.values;
+        }
+        let mut cells = vec![f32::NAN; self.values.len() / 8];
+        for (cell, steps) in self.values.chunks(8).enumerate() {
+            let known = steps
+                .iter()
+                .zip(ground.offsets)
+                .filter(|(tau, _)| !tau.is_nan());
+            for (&tau, offset) in known {
+                let to = &mut cells[cell.wrapping_add_signed(offset)];
+                *to = to.max(tau);
+            }
+        }
+        cells
+    }
+}

@@ -1,0 +1,17 @@
+//! Steps towards the goal first (Lei & Zheng 2020).
+
+use super::class;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Steps at no more than 90 degrees to the direction of the goal come first, the others only where
+/// none of those is left: Lei & Zheng 2020, sec. II.F, figure 6.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GoalDirected {}
+
+impl GoalDirected {
+    pub(super) fn first_class(to_goal: (i64, i64)) -> u8 {
+        class(to_goal, |_, progress| progress >= 0)
+    }
+}

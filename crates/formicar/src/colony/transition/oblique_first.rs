@@ -1,0 +1,17 @@
+//! Oblique steps first (Joshy & Supriya 2016, as Wang 2019 describes them).
+
+use super::class;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Diagonal steps at less than 90 degrees to the direction of the goal come first: "prefers to
+/// move forward obliquely" (Wang 2019, sec. 1, of Joshy & Supriya 2016).
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ObliqueFirst {}
+
+impl ObliqueFirst {
+    pub(super) fn first_class(to_goal: (i64, i64)) -> u8 {
+        class(to_goal, |step, progress| step % 2 == 1 && progress > 0)
+    }
+}

@@ -1,0 +1,112 @@
+//! What a colony tells of an iteration.
+
+use crate::map::{Cell, STEPS};
+use crate::path::GridPath;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// What one iteration of a colony came to.
+///
+/// Costs are those of the colony's objective; lengths are in cells, as the objective counts them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct IterationRecord {
+    /// Its number, from 0.
+    pub iteration: u32,
+    /// Ants that set out.
+    pub n_ants: u32,
+    /// Ants that reached the goal.
+    pub n_arrived: u32,
+    /// Least cost in this iteration; none if no ant arrived.
+    pub best_cost: Option<f64>,
+    /// Mean cost of the ants that arrived.
+    pub mean_cost: Option<f64>,
+    /// Length of the way of least cost in this iteration.
+    pub best_length: Option<f64>,
+    /// Mean length of the ants that arrived.
+    pub mean_length: Option<f64>,
+    /// Least cost so far.
+    pub best_so_far_cost: Option<f64>,
+    /// Length of the way of least cost so far.
+    pub best_so_far_length: Option<f64>,
+    /// The evaporation that was applied, in 0 to 1.
+    pub rho: f64,
+    /// Least pheromone after the update.
+    pub min_pheromone: f64,
+    /// Most pheromone after the update.
+    pub max_pheromone: f64,
+}
+
+/// The ways of the ants of an iteration, in the ants' order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AntWays<'a> {
+    /// Where all set out.
+    pub start: Cell,
+    /// Steps of all ants, one ant after the other, as places in [`STEPS`].
+    pub steps: &'a [u8],
+    /// Where in `steps` each ant ends.
+    pub ends: &'a [usize],
+    /// Whether each ant reached the goal.
+    pub arrived: &'a [bool],
+}
+
+impl AntWays<'_> {
+    /// Number of ants.
+    pub fn n_ants(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// The way of an ant, whether it arrived or not.
+    pub fn way(&self, ant: usize) -> GridPath {
+        let first = ant.checked_sub(1).map_or(0, |before| self.ends[before]);
+        path_of(self.start, &self.steps[first..self.ends[ant]])
+    }
+}
+
+/// The cells that steps lead through.
+pub fn path_of(start: Cell, steps: &[u8]) -> GridPath {
+    let mut cell = start;
+    let after = steps.iter().map(|&step| {
+        let (dx, dy) = STEPS[usize::from(step)];
+        cell = Cell::new(
+            cell.col.wrapping_add_signed(dx),
+            cell.row.wrapping_add_signed(dy),
+        );
+        cell
+    });
+    GridPath {
+        cells: std::iter::once(start).chain(after).collect(),
+    }
+}
+
+/// A colony at the end of an iteration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ColonyView<'a> {
+    /// What it came to.
+    pub record: &'a IterationRecord,
+    /// Where its ants went.
+    pub ways: AntWays<'a>,
+    /// Pheromone by cell, row by row, or by cell and step (eight to a cell); not a number where
+    /// no ant can go.
+    pub pheromone: &'a [f32],
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ways_of_ants_lie_one_behind_the_other() {
+        let ways = AntWays {
+            start: Cell::new(1, 1),
+            steps: &[0, 1, 4],
+            ends: &[2, 2, 3],
+            arrived: &[true, false, true],
+        };
+        assert_eq!(ways.n_ants(), 3);
+        let first = [Cell::new(1, 1), Cell::new(2, 1), Cell::new(3, 2)];
+        assert_eq!(ways.way(0).cells, first);
+        assert_eq!(ways.way(1).cells, [Cell::new(1, 1)]);
+        assert_eq!(ways.way(2).cells, [Cell::new(1, 1), Cell::new(0, 1)]);
+    }
+}
