@@ -6,8 +6,8 @@
 //!
 //! Modules are ranked, and each uses only those before it: [`numeric`], [`geometry`], [`vehicle`],
 //! [`map`], [`path`], [`collision`], [`scenario`], [`validation`], [`metrics`], [`progress`],
-//! [`search`], [`planner`], [`render`]. SI units and radians inside; a pose is the center of the
-//! rear axle, x forward, y left, heading counter-clockwise.
+//! [`smoothing`], [`search`], [`planner`], [`render`]. SI units and radians inside; a pose is the
+//! center of the rear axle, x forward, y left, heading counter-clockwise.
 #![forbid(unsafe_code)]
 
 pub mod collision;
@@ -21,6 +21,7 @@ pub mod progress;
 pub mod render;
 pub mod scenario;
 pub mod search;
+pub mod smoothing;
 pub mod validation;
 pub mod vehicle;
 
