@@ -6,8 +6,9 @@
 //!
 //! Modules are ranked, and each uses only those before it: [`numeric`], [`geometry`], [`vehicle`],
 //! [`map`], [`path`], [`collision`], [`scenario`], [`validation`], [`metrics`], [`progress`],
-//! [`objective`], [`search`], [`colony`], [`planner`], [`render`]. SI units and radians inside; a pose is the center of the
-//! rear axle, x forward, y left, heading counter-clockwise.
+//! [`objective`], [`smoothing`], [`search`], [`colony`], [`planner`], [`render`]. SI units and
+//! radians inside; a pose is the center of the rear axle, x forward, y left, heading counter-
+//! clockwise.
 #![forbid(unsafe_code)]
 
 pub mod collision;
@@ -23,6 +24,7 @@ pub mod progress;
 pub mod render;
 pub mod scenario;
 pub mod search;
+pub mod smoothing;
 pub mod validation;
 pub mod vehicle;
 

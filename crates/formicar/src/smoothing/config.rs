@@ -1,0 +1,89 @@
+//! Parameters of smoothing.
+
+use super::RedundantNodes;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How corners of a polyline become drivable.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Corners {
+    /// By 2-turning alone (Lei 2020, sec. III.B).
+    TwoTurning,
+    /// By 2-turning, and where no member of it fits, by a Dubins curve (Reeds-Shepp where reverse
+    /// is allowed) between poses on earlier and later segments. Not in the paper.
+    #[default]
+    TwoTurningOrDubins,
+}
+
+/// Parameters of smoothing; costs are in metres of forward driving.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SmoothingConfig {
+    /// Which nodes of the grid path stay before its corners are rounded.
+    pub redundant_nodes: RedundantNodes,
+    /// How corners become drivable.
+    pub corners: Corners,
+    /// Members of 2-turning tried per corner and order, besides the one nearest to the polyline,
+    /// 1 to 256.
+    #[schemars(range(min = 1, max = 256))]
+    pub n_members: u32,
+    /// Distance of poses on the polyline at which curves may begin and end, in turning radii, 0.05
+    /// to 10.
+    #[schemars(range(min = 0.05, max = 10.0))]
+    pub station_radii: f64,
+    /// The most of the polyline that one curve replaces, in turning radii, 0 to 100.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub reach_radii: f64,
+    /// Cost of each corner that a curve passes instead of 2-turning, in turning radii, 0 to 1000.
+    #[schemars(range(min = 0.0, max = 1000.0))]
+    pub passed_corner_radii: f64,
+    /// Factor on the length driven in reverse, 1 to 100.
+    #[schemars(range(min = 1.0, max = 100.0))]
+    pub reverse_penalty: f64,
+    /// Cost of a change of gear, metres, 0 to 1000.
+    #[schemars(range(min = 0.0, max = 1000.0))]
+    pub direction_switching_cost: f64,
+}
+
+impl Default for SmoothingConfig {
+    fn default() -> Self {
+        Self {
+            redundant_nodes: RedundantNodes::Remove,
+            corners: Corners::TwoTurningOrDubins,
+            n_members: 12,
+            station_radii: 0.5,
+            reach_radii: 8.0,
+            passed_corner_radii: 4.0,
+            reverse_penalty: 2.0,
+            direction_switching_cost: 1.0,
+        }
+    }
+}
+
+impl SmoothingConfig {
+    /// As Lei & Zheng 2020 smooth: redundant nodes removed, corners by 2-turning alone.
+    pub fn lei2020() -> Self {
+        Self {
+            corners: Corners::TwoTurning,
+            ..Self::default()
+        }
+    }
+
+    /// The numbers with their keys and what is allowed.
+    pub(crate) fn ranges(&self) -> [(&'static str, f64, f64, f64); 6] {
+        [
+            ("n_members", f64::from(self.n_members), 1.0, 256.0),
+            ("station_radii", self.station_radii, 0.05, 10.0),
+            ("reach_radii", self.reach_radii, 0.0, 100.0),
+            ("passed_corner_radii", self.passed_corner_radii, 0.0, 1000.0),
+            ("reverse_penalty", self.reverse_penalty, 1.0, 100.0),
+            (
+                "direction_switching_cost",
+                self.direction_switching_cost,
+                0.0,
+                1000.0,
+            ),
+        ]
+    }
+}
