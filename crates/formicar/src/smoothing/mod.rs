@@ -1,9 +1,21 @@
 //! From a grid path to a curve that a car can drive.
+//!
+//! Redundant nodes go, corners are rounded by 2-turning (Lei & Zheng 2020, sec. III), and
+//! Dubins or Reeds-Shepp curves join the headings at both ends. Every piece is checked with the
+//! swept body; what cannot be passed is named.
 
+mod chain;
 mod config;
+mod error;
+mod explain;
+mod polyline;
 mod redundant_nodes;
+mod roadmap;
+mod smooth;
 mod two_turning;
 
 pub use config::{Corners, SmoothingConfig};
+pub use error::{CornerProblem, SmoothingError};
 pub use redundant_nodes::{RedundantNodes, remove_redundant_nodes};
+pub use smooth::{CornerRecord, Ground, Rounding, Smoothed, smooth};
 pub use two_turning::{TurnOrder, TwoTurning};

@@ -1,0 +1,204 @@
+//! The one entry: a request and the nodes of a grid path in, a drivable curve out.
+
+use super::chain::{Ends, Piece, Task, cheapest};
+use super::explain::explain;
+use super::polyline::{Polyline, waypoints};
+use super::roadmap::Roadmap;
+use super::{SmoothingConfig, SmoothingError, TwoTurning};
+use crate::collision::{Body, Drive, ObstacleMap};
+use crate::geometry::{Point2, Pose2};
+use crate::map::{BitGrid, Cell, DiagonalRule};
+use crate::path::{CurvePath, Direction, WaypointPath};
+use crate::scenario::{GoalHeading, Request, StartHeading};
+use crate::vehicle::{Motion, Vehicle};
+
+/// Where a grid path was found and who shall drive it.
+#[derive(Clone, Copy, Debug)]
+pub struct Ground<'a> {
+    /// The map.
+    pub obstacles: &'a ObstacleMap,
+    /// Who drives.
+    pub vehicle: &'a Vehicle,
+    /// The cells that the grid path avoids: obstacles, mostly grown.
+    pub blocked: &'a BitGrid,
+    /// The rule by which it passes corners.
+    pub rule: DiagonalRule,
+}
+
+/// A drivable curve and how it came from a polyline; world coordinates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Smoothed {
+    /// The curve.
+    pub path: CurvePath,
+    /// The polyline whose corners were rounded.
+    pub waypoints: WaypointPath,
+    /// Its corners, in order.
+    pub corners: Vec<CornerRecord>,
+}
+
+/// What became of a corner.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CornerRecord {
+    /// Where it was.
+    pub place: Point2,
+    /// How far the polyline turns there, radians, positive left.
+    pub turn_rad: f64,
+    /// How it became drivable.
+    pub rounding: Rounding,
+}
+
+/// How a corner became drivable.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rounding {
+    /// By two arcs.
+    TwoTurning(TwoTurning),
+    /// By a Dubins or Reeds-Shepp curve that passes it.
+    Curve,
+    /// Not at all: a point turns on the spot.
+    None,
+}
+
+/// Rounds the corners of a grid path's nodes for a vehicle, and joins the ends' headings.
+///
+/// Every corner gets the 2-turning of least deviation that the swept body has room for, all
+/// together such that neighbors leave each other room; Dubins curves (Reeds-Shepp where reverse
+/// is allowed) lead from an exact start heading onto the way and from the way to an exact goal
+/// heading. Where start or goal do not lie in the cells of the first and last node, the way begins
+/// and ends at their positions all the same. For a point vehicle the way is the polyline.
+///
+/// # Errors
+/// Parameters out of range, no nodes, and the first place of the way that cannot be passed, with
+/// its reason.
+pub fn smooth(
+    ground: &Ground,
+    config: &SmoothingConfig,
+    request: &Request,
+    nodes: &[Cell],
+) -> Result<Smoothed, SmoothingError> {
+    let bad = |(_, value, low, high): &(_, f64, f64, f64)| !(low..=high).contains(&value);
+    if let Some((key, value, low, high)) = config.ranges().into_iter().find(bad) {
+        return Err(SmoothingError::OutOfRange {
+            key,
+            value,
+            low,
+            high,
+        });
+    }
+    if nodes.is_empty() {
+        return Err(SmoothingError::NoNodes);
+    }
+    let points = waypoints(ground, request, nodes);
+    if ground.vehicle.motion() == Motion::Point {
+        return Ok(as_polyline(ground, &points));
+    }
+    let body = Body::new(ground.vehicle);
+    let ends = ends(ground, request);
+    let task = Task {
+        obstacles: ground.obstacles,
+        body: &body,
+        radius_m: ground.vehicle.min_turning_radius_m(),
+        config,
+        motion: request.motion,
+        ends: &ends,
+    };
+    let map = Roadmap::new(Polyline::new(points), config, task.radius_m);
+    let pieces = if map.line.legs.is_empty() && (ends.starts.is_empty() || ends.goals.is_empty()) {
+        vec![standing(&task, request)?]
+    } else {
+        cheapest(&task, &map).map_err(|stuck| explain(&task, &map, stuck))?
+    };
+    Ok(assembled(ground, request, &map, &pieces))
+}
+
+/// The poses that the ends are held to, grid coordinates.
+fn ends(ground: &Ground, request: &Request) -> Ends {
+    let frame = ground.obstacles.frame();
+    let goals = match request.goal_heading {
+        GoalHeading::Any => Vec::new(),
+        GoalHeading::Exact | GoalHeading::Bidirectional => request.goal_poses(),
+    };
+    let starts = match request.start_heading {
+        StartHeading::Any => Vec::new(),
+        StartHeading::Exact => request.start_poses(),
+    };
+    Ends {
+        starts: starts.into_iter().map(|pose| frame.to_grid(pose)).collect(),
+        goals: goals.into_iter().map(|pose| frame.to_grid(pose)).collect(),
+    }
+}
+
+/// Start and goal in one place with a free heading: the path that does not move.
+fn standing(task: &Task, request: &Request) -> Result<Piece, SmoothingError> {
+    let frame = task.obstacles.frame();
+    let held = if task.ends.starts.is_empty() && !task.ends.goals.is_empty() {
+        request.goal_poses()
+    } else {
+        request.start_poses()
+    };
+    let mut poses = held.into_iter().map(|pose| frame.to_grid(pose));
+    let stands_free = |pose: &Pose2| task.obstacles.is_free(task.body, &Drive::at(*pose));
+    let start = poses.find(stands_free).ok_or(SmoothingError::NoRoom)?;
+    Ok(Piece {
+        start,
+        arcs: Vec::new(),
+        member: None,
+    })
+}
+
+fn as_polyline(ground: &Ground, points: &[Point2]) -> Smoothed {
+    let line = Polyline::new(points.iter().copied());
+    let waypoints = world_points(ground, &line);
+    Smoothed {
+        path: CurvePath::from_polyline(&waypoints.points),
+        corners: (0..line.n_corners())
+            .map(|corner| CornerRecord {
+                place: waypoints.points[corner + 1],
+                turn_rad: line.turn_rad(corner),
+                rounding: Rounding::None,
+            })
+            .collect(),
+        waypoints,
+    }
+}
+
+fn assembled(ground: &Ground, request: &Request, map: &Roadmap, pieces: &[Piece]) -> Smoothed {
+    let frame = ground.obstacles.frame();
+    let start = match (request.start_heading, pieces.first()) {
+        (StartHeading::Any, Some(first)) => frame.to_world(first.start).wrapped(),
+        _ => request.start,
+    };
+    let mut path = CurvePath::new(start);
+    for arc in pieces.iter().flat_map(|piece| &piece.arcs) {
+        let direction = if arc.signed_length_m < 0.0 {
+            Direction::Reverse
+        } else {
+            Direction::Forward
+        };
+        path.push(arc.curvature_per_m, arc.length_m(), direction);
+    }
+    let waypoints = world_points(ground, &map.line);
+    let mut corners: Vec<CornerRecord> = (0..map.line.n_corners())
+        .map(|corner| CornerRecord {
+            place: waypoints.points[corner + 1],
+            turn_rad: map.line.turn_rad(corner),
+            rounding: Rounding::Curve,
+        })
+        .collect();
+    for member in pieces.iter().filter_map(|piece| piece.member) {
+        let member = &map.members[member];
+        corners[member.corner].rounding = Rounding::TwoTurning(member.turning);
+    }
+    Smoothed {
+        path,
+        waypoints,
+        corners,
+    }
+}
+
+fn world_points(ground: &Ground, line: &Polyline) -> WaypointPath {
+    let frame = ground.obstacles.frame();
+    let to_world = |&p: &Point2| frame.to_world(Pose2::at(p, 0.0)).position();
+    WaypointPath {
+        points: line.points.iter().map(to_world).collect(),
+    }
+}
