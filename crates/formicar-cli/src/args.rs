@@ -167,7 +167,7 @@ pub(crate) struct PlanArgs {
     )]
     pub(crate) seed: u64,
 
-    /// Most threads to use; the result never depends on it, and hybrid A* runs on one.
+    /// Most threads to use; the result never depends on it. Colonies use them.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub(crate) threads: Option<u32>,
 

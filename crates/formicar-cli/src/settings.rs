@@ -3,6 +3,8 @@
 use anyhow::{Context, Result, anyhow, bail};
 use formicar::planner::{PlannerConfig, PlannerName};
 use formicar::vehicle::Motion;
+use serde_json::Value as Json;
+use std::collections::BTreeSet;
 use std::path::Path;
 use toml::{Table, Value};
 
@@ -34,18 +36,15 @@ pub(crate) fn load(
         Some(path) => read(path)?,
         None => Table::new(),
     };
-    let mut config = PlannerConfig::default();
-    if let Some(path) = file {
-        config = typed(&table).with_context(|| path.display().to_string())?;
+    if let Some(planner) = planner {
+        table.insert("planner".to_owned(), planner.name().into());
     }
+    let mut config = typed(&table).with_context(|| name_of(file))?;
     for set in sets {
         apply(&mut table, set)?;
         config = typed(&table).with_context(|| format!("--set {set:?}"))?;
     }
-    let has_planner = planner.is_some() || table.contains_key("planner");
-    if let Some(planner) = planner {
-        config.planner = planner;
-    }
+    let has_planner = table.contains_key("planner");
     config.check()?;
     Ok(Settings {
         config,
@@ -57,6 +56,12 @@ pub(crate) fn load(
 fn typed(table: &Table) -> Result<PlannerConfig> {
     let config = table.clone().try_into();
     config.map_err(|e: toml::de::Error| anyhow!("{}", one_line(&e)))
+}
+
+fn name_of(file: Option<&Path>) -> String {
+    file.map_or("the planner's parameters".to_owned(), |path| {
+        path.display().to_string()
+    })
 }
 
 fn read(path: &Path) -> Result<Table> {
@@ -108,11 +113,35 @@ fn value(text: &str) -> Value {
     parsed.unwrap_or_else(|| Value::String(text.to_owned()))
 }
 
-/// Every key that a configuration has, dotted.
+/// Every key that a configuration may have, dotted.
 fn known_keys() -> Vec<String> {
-    Table::try_from(PlannerConfig::default())
-        .map(|table| keys_of(&table, ""))
-        .unwrap_or_default()
+    let schema = schemars::schema_for!(PlannerConfig).to_value();
+    let mut keys = BTreeSet::new();
+    collect_keys(&schema, &schema, "", &mut keys);
+    keys.into_iter().collect()
+}
+
+/// The keys of a part of a schema: its properties, of all its variants; a part without any is a
+/// key by itself.
+fn collect_keys(part: &Json, schema: &Json, prefix: &str, keys: &mut BTreeSet<String>) {
+    let mut is_leaf = true;
+    if let Some(reference) = part["$ref"].as_str() {
+        let definition = schema.pointer(reference.trim_start_matches('#'));
+        collect_keys(definition.unwrap_or(&Json::Null), schema, prefix, keys);
+        is_leaf = false;
+    }
+    for variant in part["oneOf"].as_array().into_iter().flatten() {
+        collect_keys(variant, schema, prefix, keys);
+        is_leaf = false;
+    }
+    for (name, property) in part["properties"].as_object().into_iter().flatten() {
+        let dot = if prefix.is_empty() { "" } else { "." };
+        collect_keys(property, schema, &format!("{prefix}{dot}{name}"), keys);
+        is_leaf = false;
+    }
+    if is_leaf && !prefix.is_empty() && part["type"] != "object" {
+        keys.insert(prefix.to_owned());
+    }
 }
 
 fn keys_of(table: &Table, prefix: &str) -> Vec<String> {
@@ -133,9 +162,15 @@ fn is_known(key: &str, known: &[String]) -> bool {
 }
 
 fn unknown_key(key: &str, known: &[String]) -> anyhow::Error {
+    let section = key.split('.').next().unwrap_or_default();
+    let within = format!("{section}.");
+    let mut near: Vec<&str> = known.iter().map(String::as_str).collect();
+    if near.iter().any(|known| known.starts_with(&within)) {
+        near.retain(|known| known.starts_with(&within));
+    }
     anyhow!(
         "no planner parameter is named {key:?}; there are {}",
-        known.join(", ")
+        near.join(", ")
     )
 }
 

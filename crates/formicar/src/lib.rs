@@ -14,6 +14,7 @@
 pub mod collision;
 pub mod colony;
 pub mod geometry;
+pub mod layers;
 pub mod map;
 pub mod metrics;
 pub mod numeric;

@@ -1,7 +1,9 @@
 //! The one protocol that every planner passes.
 
 use formicar::collision::{Body, Drive, ObstacleMap};
+use formicar::colony::Stop;
 use formicar::geometry::{Point2, Pose2};
+use formicar::layers::Expansion;
 use formicar::map::generate::{ScatterParameters, free_pose_pairs, scattered_obstacles};
 use formicar::map::{OccupancyGrid, builtin};
 use formicar::numeric::Seed;
@@ -20,16 +22,11 @@ struct Case {
 }
 
 fn case(planner: PlannerName) -> Case {
-    let name = if planner == PlannerName::HybridAstar {
-        "lei-map1"
-    } else {
-        "wang-open"
+    let (name, vehicle) = match planner {
+        PlannerName::HybridAstar | PlannerName::Lei2020 => ("lei-map1", Vehicle::lei2020()),
+        _ => ("wang-open", Vehicle::point()),
     };
     let builtin = builtin::BuiltinMap::by_name(name).expect("a built-in map");
-    let vehicle = match planner {
-        PlannerName::HybridAstar => Vehicle::preset(builtin.vehicle).expect("a preset"),
-        PlannerName::Astar | PlannerName::Dijkstra => Vehicle::point(),
-    };
     let ends = &builtin.requests[0];
     Case {
         map: builtin.grid(),
@@ -108,6 +105,11 @@ fn a_budget_stops_it() {
             plan_with(name, &case, &request, &mut ())
         };
         assert_eq!(limited(all_steps).status(), Status::Found, "{name:?}");
+        if name.colony().is_some() {
+            assert_colony_stops(limited(all_steps / 2), all_steps / 2);
+            assert_eq!(limited(1).status(), Status::BudgetExhausted, "{name:?}");
+            continue;
+        }
         match limited(all_steps / 2) {
             Outcome::NotFound(failure) => {
                 assert_eq!(failure.status, Status::BudgetExhausted, "{name:?}");
@@ -116,6 +118,18 @@ fn a_budget_stops_it() {
             Outcome::Found(_) => panic!("{name:?} found a path with half its steps"),
         }
     }
+}
+
+/// A colony that runs out of steps still has the best path of its ants so far.
+fn assert_colony_stops(outcome: Outcome, budget: u64) {
+    let (stages, n_steps) = match outcome {
+        Outcome::Found(plan) => (plan.stages, plan.n_steps),
+        Outcome::NotFound(failure) => (failure.stages, failure.n_steps),
+    };
+    assert_eq!(n_steps, budget);
+    let run = stages.colony.expect("a colony");
+    assert_eq!(run.stop, Stop::Budget);
+    assert!(run.best.is_some());
 }
 
 struct Watch {
@@ -175,9 +189,36 @@ fn a_deadline_and_a_cancel_stop_it_and_are_named() {
 }
 
 #[test]
+fn the_number_of_threads_changes_nothing() {
+    for name in PlannerName::ALL {
+        let case = case(name);
+        let plan = |n_threads: usize| {
+            let planner = Planner::new(&case.map, case.vehicle.clone(), PlannerConfig::of(name));
+            let mut planner = planner.expect("valid parameters").with_threads(n_threads);
+            found(
+                planner
+                    .plan(&case.request, Seed(3), &mut ())
+                    .expect("a valid request"),
+            )
+        };
+        let one = plan(1);
+        for n_threads in [2, 7] {
+            let many = plan(n_threads);
+            assert_eq!(one.path, many.path, "{name:?}");
+            assert_eq!(one.certificate, many.certificate, "{name:?}");
+            assert_eq!(one.metrics, many.metrics, "{name:?}");
+            assert_eq!(one.n_steps, many.n_steps, "{name:?}");
+        }
+    }
+}
+
+#[test]
 fn bad_parameters_are_refused_with_their_range() {
     let map = case(PlannerName::HybridAstar).map;
-    let bad: [fn(&mut PlannerConfig); 8] = [
+    let bad: [fn(&mut PlannerConfig); 11] = [
+        |c| c.colony.n_ants = 0,
+        |c| c.layers.expansion = Expansion::Cells(65),
+        |c| c.smoothing.n_members = 0,
         |c| c.hybrid_astar.weight = 0.9,
         |c| c.hybrid_astar.weight = f64::NAN,
         |c| c.hybrid_astar.max_iterations = 0,

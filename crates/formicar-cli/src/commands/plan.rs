@@ -53,7 +53,8 @@ pub(crate) fn run(args: &PlanArgs, out: &mut impl Write) -> Result<Ending, Failu
     let ground = ground::load(&args.ground)?;
     let config = settings.for_motion(ground.vehicle.vehicle.motion());
     let defaults = request(args, &ground);
-    let mut session = Session::new(ground, config, begun)?;
+    let n_threads = args.threads.map_or(1, |n| n as usize);
+    let mut session = Session::new(ground, config, begun)?.with_threads(n_threads);
     if args.stdin {
         return stdin::run(&mut session, &defaults, Seed(args.seed), out);
     }
@@ -113,6 +114,13 @@ impl Session {
             map_setup_s: setup.elapsed().as_secs_f64(),
             begun,
         })
+    }
+
+    fn with_threads(self, n_threads: usize) -> Self {
+        Self {
+            planner: self.planner.with_threads(n_threads),
+            ..self
+        }
     }
 
     /// Plans one request; what it leaves out comes from `defaults`.

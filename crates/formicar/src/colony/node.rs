@@ -18,6 +18,9 @@ pub(super) struct Node {
 /// The largest weight: eight of them still fit 32 bits.
 const MAX_WEIGHT: f32 = ((1 << 28) - 1) as f32;
 
+/// Products below this are weighed coarsely, as what they are scaled with must stay finite.
+const LEAST_SCALE: f32 = 1e-30;
+
 impl Node {
     /// A node without weights.
     pub(super) fn new(place: Place, allowed: u8, first_class: u8) -> Self {
@@ -34,7 +37,7 @@ impl Node {
     ///
     /// As integers they add up without rounding, so that no draw can land on a weight of zero.
     pub(super) fn set_weights(&mut self, products: [f32; 8]) {
-        let largest = products.iter().copied().fold(f32::MIN_POSITIVE, f32::max);
+        let largest = products.iter().copied().fold(LEAST_SCALE, f32::max);
         let scale = MAX_WEIGHT / largest;
         self.weights = products.map(|product| (product * scale) as u32 | 1);
     }
@@ -80,6 +83,8 @@ mod tests {
         {
             assert!((shares[step] - expected / 12.0).abs() < 0.01, "{shares:?}");
         }
+        node.set_weights([1e-40; 8]);
+        assert!(node.draw(u8::MAX, u32::MAX) < 8);
         assert_eq!(node.draw(0b1000_0000, u32::MAX), 7);
         assert_eq!(node.draw(0b0000_0001, 0), 0);
     }

@@ -99,7 +99,7 @@ impl Trails {
 
     /// Keeps all pheromone between limits, and above nothing.
     pub(super) fn clamp(&mut self, low: f64, high: f64) {
-        let low = (low as f32).max(NOTHING);
+        let low = (low as f32).clamp(NOTHING, f32::MAX);
         let high = (high as f32).clamp(low, f32::MAX);
         for tau in &mut self.values {
             *tau = tau.clamp(low, high);

@@ -1,11 +1,13 @@
 //! The answer document: one definition of what every front end prints about a query.
 
 use super::path_document::{PathDocument, PoseRecord};
-use super::{Outcome, PlanError, PlannerConfig, RequestDocument};
+use super::{Outcome, PlanError, PlannerConfig, RequestDocument, Stages};
 use crate::collision::ObstacleMap;
+use crate::colony::Stop;
 use crate::metrics::PathMetrics;
 use crate::numeric::Seed;
 use crate::path::CurvePath;
+use crate::progress::IterationRecord;
 use crate::scenario::{ErrorCode, Request, ScenarioError};
 use crate::validation::Report;
 use crate::vehicle::{Motion, Vehicle, VehicleParameters};
@@ -46,12 +48,44 @@ pub struct Answer {
     pub certificate: Option<Report>,
     /// Exact metrics of the path found.
     pub metrics: Option<PathMetrics>,
+    /// What the colony did; missing where no colony ran.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub colony: Option<ColonyRecord>,
     /// How long it took, seconds.
     pub timing: Timing,
     /// The path, only if it is certified.
     pub path: Option<PathDocument>,
     /// What it takes to repeat the run.
     pub provenance: Provenance,
+}
+
+/// What a colony did.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct ColonyRecord {
+    /// Why it stopped.
+    pub stop: Stop,
+    /// Iterations until its best path was found; null if no ant arrived.
+    pub converged_after: Option<u32>,
+    /// Cells of its best path.
+    pub n_cells: usize,
+    /// Nodes of the polyline that is left of them.
+    pub n_nodes: usize,
+    /// All iterations.
+    pub iterations: Vec<IterationRecord>,
+}
+
+impl ColonyRecord {
+    /// The record of a run; none where no colony ran.
+    pub fn new(stages: &Stages) -> Option<Self> {
+        let run = stages.colony.as_ref()?;
+        Some(Self {
+            stop: run.stop,
+            converged_after: run.history.converged_after(),
+            n_cells: run.best.as_ref().map_or(0, |path| path.cells.len()),
+            n_nodes: stages.nodes.len(),
+            iterations: run.history.iterations.clone(),
+        })
+    }
 }
 
 /// Times in seconds; the caller measures them.
@@ -141,12 +175,14 @@ impl AnswerContext<'_> {
             Ok(Outcome::Found(plan)) => Answer {
                 certificate: Some((*plan.certificate).clone()),
                 metrics: Some(plan.metrics.clone()),
+                colony: ColonyRecord::new(&plan.stages),
                 path: Some(PathDocument::new(&plan.path, self.obstacles, self.vehicle)),
                 ..self.blank("found", ErrorCode::None, document, (seed, timing))
             },
             Ok(Outcome::NotFound(failure)) => Answer {
                 reason: Some(failure.reason.clone()),
                 certificate: failure.refused.as_ref().map(|(_, report)| report.clone()),
+                colony: ColonyRecord::new(&failure.stages),
                 ..self.blank(
                     failure.status.name(),
                     failure.status.into(),
@@ -192,6 +228,7 @@ impl AnswerContext<'_> {
             seed: seed.0,
             certificate: None,
             metrics: None,
+            colony: None,
             timing,
             path: None,
             provenance: self.provenance(request),

@@ -1,14 +1,23 @@
 //! Every parameter of every planner, with its range: one definition for files, flags and docs.
 
+use super::sections;
+use crate::colony::{ColonyConfig, ColonyError, presets};
+use crate::layers::{Expansion, LayersConfig, UShapes};
 use crate::map::DiagonalRule;
+use crate::numeric::OutOfRange;
 use crate::search::HybridAstarConfig;
+use crate::smoothing::SmoothingConfig;
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use thiserror::Error;
 
 /// Which planner, and the parameters of each.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
+///
+/// Made by [`PlannerConfig::of`], so that a colony has the parameters of its name. Read from a
+/// document, what is left out is that of the planner named there; written, only what the planner
+/// uses.
+#[derive(Clone, Debug, PartialEq, JsonSchema)]
+#[schemars(default, deny_unknown_fields)]
 pub struct PlannerConfig {
     /// The planner to use.
     pub planner: PlannerName,
@@ -16,6 +25,30 @@ pub struct PlannerConfig {
     pub hybrid_astar: HybridAstarConfig,
     /// Parameters of the planners on the grid, `astar` and `dijkstra`.
     pub grid_search: GridSearchConfig,
+    /// What is laid over the map before ants walk on it.
+    pub layers: LayersConfig,
+    /// The colony.
+    pub colony: ColonyConfig,
+    /// How the ants' path becomes one that a car can drive.
+    pub smoothing: SmoothingConfig,
+}
+
+impl Default for PlannerConfig {
+    fn default() -> Self {
+        Self::of(PlannerName::default())
+    }
+}
+
+impl Serialize for PlannerConfig {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        sections::write(self, serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for PlannerConfig {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        sections::read(deserializer)
+    }
 }
 
 /// The planners.
@@ -29,11 +62,36 @@ pub enum PlannerName {
     Astar,
     /// Descent of the goal field (Dijkstra from the goal), 8-connected; its path is a polyline.
     Dijkstra,
+    /// The Ant System (Dorigo, Maniezzo & Colorni 1996).
+    AntSystem,
+    /// The elitist Ant System.
+    Elitist,
+    /// The MAX-MIN Ant System (Stützle & Hoos 2000).
+    MaxMin,
+    /// The colony of Lei & Zheng 2020.
+    Lei2020,
+    /// The colony of Wang et al. 2019.
+    Wang2019,
+    /// The colony of Zhang 2016, as Wang et al. describe it.
+    Zhang2016,
+    /// The colony of Joshy & Supriya 2016, as Wang et al. describe it.
+    Joshy2016,
 }
 
 impl PlannerName {
     /// All planners, the default first.
-    pub const ALL: [Self; 3] = [Self::HybridAstar, Self::Astar, Self::Dijkstra];
+    pub const ALL: [Self; 10] = [
+        Self::HybridAstar,
+        Self::Astar,
+        Self::Dijkstra,
+        Self::AntSystem,
+        Self::Elitist,
+        Self::MaxMin,
+        Self::Lei2020,
+        Self::Wang2019,
+        Self::Zhang2016,
+        Self::Joshy2016,
+    ];
 
     /// The word used in files and on the command line.
     pub fn name(self) -> &'static str {
@@ -41,6 +99,13 @@ impl PlannerName {
             Self::HybridAstar => "hybrid-astar",
             Self::Astar => "astar",
             Self::Dijkstra => "dijkstra",
+            Self::AntSystem => "ant-system",
+            Self::Elitist => "elitist",
+            Self::MaxMin => "max-min",
+            Self::Lei2020 => "lei2020",
+            Self::Wang2019 => "wang2019",
+            Self::Zhang2016 => "zhang2016",
+            Self::Joshy2016 => "joshy2016",
         }
     }
 
@@ -54,6 +119,31 @@ impl PlannerName {
             Self::Dijkstra => {
                 "descent of the goal field over cells; a polyline, certified for point vehicles"
             }
+            Self::AntSystem => "Ant System: uniform pheromone, all ants deposit; corners rounded",
+            Self::Elitist => "elitist Ant System: the best way so far gains most; corners rounded",
+            Self::MaxMin => "MAX-MIN Ant System: only the best ant deposits; corners rounded",
+            Self::Lei2020 => {
+                "Lei & Zheng 2020: U-shapes closed, steps towards the goal first, 2-turning"
+            }
+            Self::Wang2019 => {
+                "Wang et al. 2019: no squeezing between obstacles, guided by the way to the goal"
+            }
+            Self::Zhang2016 => "Zhang 2016 as Wang et al. describe it: adaptive MAX-MIN Ant System",
+            Self::Joshy2016 => "Joshy & Supriya 2016 as Wang et al. describe it: six directions",
+        }
+    }
+
+    /// The colony of this name; none if it is no colony.
+    pub fn colony(self) -> Option<ColonyConfig> {
+        match self {
+            Self::HybridAstar | Self::Astar | Self::Dijkstra => None,
+            Self::AntSystem => Some(presets::ant_system()),
+            Self::Elitist => Some(presets::elitist()),
+            Self::MaxMin => Some(presets::max_min()),
+            Self::Lei2020 => Some(presets::lei2020()),
+            Self::Wang2019 => Some(presets::wang2019()),
+            Self::Zhang2016 => Some(presets::zhang2016()),
+            Self::Joshy2016 => Some(presets::joshy2016()),
         }
     }
 }
@@ -82,15 +172,11 @@ pub struct GridSearchConfig {
 #[non_exhaustive]
 pub enum ConfigError {
     /// A parameter outside its range.
-    #[error("{key} = {value}; it must be {range}")]
-    OutOfRange {
-        /// The parameter.
-        key: &'static str,
-        /// Its value.
-        value: f64,
-        /// What is allowed.
-        range: String,
-    },
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
+    /// A colony that cannot be.
+    #[error(transparent)]
+    Colony(#[from] ColonyError),
     /// No such planner.
     #[error("no planner is named {name:?}; there are {known}")]
     UnknownPlanner {
@@ -104,9 +190,20 @@ pub enum ConfigError {
 impl PlannerConfig {
     /// The defaults of a planner.
     pub fn of(planner: PlannerName) -> Self {
+        let u_shapes = match planner {
+            PlannerName::Lei2020 => UShapes::Close,
+            _ => UShapes::Keep,
+        };
         Self {
             planner,
-            ..Self::default()
+            hybrid_astar: HybridAstarConfig::default(),
+            grid_search: GridSearchConfig::default(),
+            layers: LayersConfig {
+                expansion: Expansion::HalfWidth,
+                u_shapes,
+            },
+            colony: planner.colony().unwrap_or_default(),
+            smoothing: SmoothingConfig::default(),
         }
     }
 
@@ -115,58 +212,10 @@ impl PlannerConfig {
     /// # Errors
     /// The first parameter that is not, with value and range.
     pub fn check(&self) -> Result<(), ConfigError> {
-        let h = &self.hybrid_astar;
-        let checks = [
-            ("hybrid_astar.weight", h.weight, 1.0, 10.0),
-            (
-                "hybrid_astar.angle_quantization_bins",
-                f64::from(h.angle_quantization_bins),
-                16.0,
-                360.0,
-            ),
-            (
-                "hybrid_astar.max_iterations",
-                h.max_iterations as f64,
-                1.0,
-                1e9,
-            ),
-            ("hybrid_astar.step_radii", h.step_radii, 0.05, 1.0),
-            (
-                "hybrid_astar.reverse_penalty",
-                h.reverse_penalty,
-                1.0,
-                100.0,
-            ),
-            (
-                "hybrid_astar.direction_switching_cost",
-                h.direction_switching_cost,
-                0.0,
-                1000.0,
-            ),
-            ("hybrid_astar.change_penalty", h.change_penalty, 0.0, 100.0),
-            (
-                "hybrid_astar.non_straight_penalty",
-                h.non_straight_penalty,
-                1.0,
-                100.0,
-            ),
-            ("hybrid_astar.cost_penalty", h.cost_penalty, 0.0, 100.0),
-            (
-                "hybrid_astar.clearance_wish_m",
-                h.clearance_wish_m,
-                0.0,
-                100.0,
-            ),
-        ];
-        let bad = checks
-            .into_iter()
-            .find(|(_, value, low, high)| !(low..=high).contains(&value));
-        bad.map_or(Ok(()), |(key, value, low, high)| {
-            Err(ConfigError::OutOfRange {
-                key,
-                value,
-                range: format!("in {low} to {high}"),
-            })
-        })
+        self.hybrid_astar.check()?;
+        self.layers.check()?;
+        self.colony.check()?;
+        self.smoothing.check()?;
+        Ok(())
     }
 }

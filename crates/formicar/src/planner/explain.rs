@@ -12,9 +12,11 @@ impl Planner {
         match status {
             Status::NoPath => self.explain_no_path(request, n_steps),
             Status::BudgetExhausted => {
-                format!(
-                    "no path within {n_steps} steps; hint: raise the budget and hybrid_astar.max_iterations"
-                )
+                let hint = match self.config.planner {
+                    PlannerName::HybridAstar => "raise the budget and hybrid_astar.max_iterations",
+                    _ => "raise the budget",
+                };
+                format!("no path within {n_steps} steps; hint: {hint}")
             }
             Status::TimedOut => format!(
                 "no path within the deadline of {deadline_ms:.1} ms ({n_steps} steps); hint: raise it"
@@ -36,8 +38,7 @@ impl Planner {
         let Some(passage) = widest_passage(self.obstacles.distance(), from, to) else {
             return "obstacles separate start and goal: no way leads from one to the other, however thin the vehicle".to_owned();
         };
-        let (low, high) = self.vehicle.footprint().bounds();
-        let width_m = high.y - low.y;
+        let width_m = self.vehicle.width_m();
         let gap_m = (2.0 * passage.distance_cells - 1.0) * frame.resolution_m();
         let place = frame.center(passage.narrowest);
         if gap_m < width_m {
@@ -51,9 +52,7 @@ impl Planner {
             PlannerName::HybridAstar => {
                 "hint: allow reverse, other headings or a wider goal tolerance; a smaller hybrid_astar.step_radii searches a finer lattice"
             }
-            PlannerName::Astar | PlannerName::Dijkstra => {
-                "hint: hybrid-astar uses the true footprint"
-            }
+            _ => "hint: hybrid-astar uses the true footprint",
         };
         format!(
             "{} searched all it can reach ({n_steps} steps); the widest way is about {gap_m:.2} m at its narrowest, ({:.2}, {:.2}), the vehicle {width_m:.2} m wide, so turning is what fails; {hint}",

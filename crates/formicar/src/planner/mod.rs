@@ -1,20 +1,22 @@
 //! The one door: a map, a vehicle and a configuration in, certified paths out.
 
 mod answer;
+mod ants;
 mod config;
 mod explain;
 mod outcome;
 mod path_document;
 mod request_document;
 mod run;
+mod sections;
 
 pub use crate::search::HybridAstarConfig;
 pub use answer::{
     ANSWER_SCHEMA, Answer, AnswerContext, AnswerError, CertificateHashes, CertificateNumbers,
-    MapRecord, Provenance, StoredPath, Timing, VehicleRecord,
+    ColonyRecord, MapRecord, Provenance, StoredPath, Timing, VehicleRecord,
 };
 pub use config::{ConfigError, GridSearchConfig, PlannerConfig, PlannerName};
-pub use outcome::{NotFound, Outcome, Plan, PlanError};
+pub use outcome::{NotFound, Outcome, Plan, PlanError, Stages};
 pub use path_document::{POSE_SPACING_M, PathDocument, PoseRecord, SegmentRecord};
 pub use request_document::RequestDocument;
 
@@ -33,6 +35,7 @@ pub struct Planner {
     obstacles: Arc<ObstacleMap>,
     vehicle: Vehicle,
     config: PlannerConfig,
+    n_threads: usize,
     /// What searches over cells prepare and reuse.
     grid: Option<(MoveMasks, AstarWorkspace)>,
 }
@@ -64,8 +67,16 @@ impl Planner {
             obstacles,
             vehicle,
             config,
+            n_threads: 1,
             grid: None,
         })
+    }
+
+    /// The same planner on at most so many threads; the result never depends on it. Colonies use
+    /// them, everything else runs on one.
+    #[must_use]
+    pub fn with_threads(self, n_threads: usize) -> Self {
+        Self { n_threads, ..self }
     }
 
     /// The prepared map.
@@ -94,7 +105,7 @@ impl Planner {
             return Err(PlanError::DeadlineWithoutClock);
         }
         let mut limits = Limits::new(observer, request.budget_steps, request.deadline);
-        let found = self.search(request, &mut limits)?;
+        let found = self.search(request, seed, &mut limits)?;
         Ok(self.conclude(request, seed, found, &mut limits))
     }
 }

@@ -1,11 +1,15 @@
 //! How a query ended.
 
 use super::{ConfigError, PlannerName};
+use crate::colony::ColonyRun;
+use crate::layers::Layers;
+use crate::map::Cell;
 use crate::metrics::PathMetrics;
 use crate::numeric::Seed;
 use crate::path::{CurvePath, GridPath};
 use crate::progress::Status;
 use crate::scenario::{ErrorCode, ScenarioError};
+use crate::smoothing::CornerRecord;
 use crate::validation::{Certificate, Report};
 use thiserror::Error;
 
@@ -48,14 +52,30 @@ pub struct Plan {
     pub seed: Seed,
     /// The path, world coordinates.
     pub path: CurvePath,
-    /// The chain of cells behind it, for planners on the grid.
-    pub grid_path: Option<GridPath>,
+    /// What was computed on the way to it.
+    pub stages: Stages,
     /// The judge's word.
     pub certificate: Certificate,
     /// Exact metrics of the path.
     pub metrics: PathMetrics,
     /// Search steps done.
     pub n_steps: u64,
+}
+
+/// What a planner computed before the path that is judged, for pictures and studies; what a
+/// planner does not compute is missing.
+#[derive(Clone, Debug, Default)]
+pub struct Stages {
+    /// What was laid over the map.
+    pub layers: Option<Layers>,
+    /// The run of the colony.
+    pub colony: Option<ColonyRun>,
+    /// The chain of cells found.
+    pub grid_path: Option<GridPath>,
+    /// Those of its cells at which a polyline turns.
+    pub nodes: Vec<Cell>,
+    /// How each corner of the polyline became drivable.
+    pub corners: Vec<CornerRecord>,
 }
 
 /// Why there is no path.
@@ -67,6 +87,8 @@ pub struct NotFound {
     pub reason: String,
     /// The path that the judge refused, with its findings.
     pub refused: Option<(CurvePath, Report)>,
+    /// What was computed before it ended.
+    pub stages: Stages,
     /// Search steps done.
     pub n_steps: u64,
 }
@@ -90,6 +112,9 @@ pub enum PlanError {
     /// The vehicle does not suit the search.
     #[error(transparent)]
     Vehicle(#[from] crate::vehicle::VehicleError),
+    /// A colony refused its input.
+    #[error(transparent)]
+    Colony(crate::colony::RunError),
     /// A grid search refused its input.
     #[error(transparent)]
     Search(crate::search::SearchError),

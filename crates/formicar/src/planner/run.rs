@@ -1,6 +1,6 @@
 //! From a request to a certified path: search, curve, judge, metrics.
 
-use super::{NotFound, Outcome, Plan, PlanError, Planner, PlannerName};
+use super::{NotFound, Outcome, Plan, PlanError, Planner, PlannerName, Stages};
 use crate::collision::ObstacleMap;
 use crate::geometry::{Arc, Point2, Pose2};
 use crate::map::{BitGrid, Cell, MoveMasks};
@@ -17,18 +17,47 @@ use crate::vehicle::{Motion, Vehicle};
 
 /// What a search found, before it is judged.
 pub(super) struct Found {
-    path: CurvePath,
-    grid: Option<GridSearch>,
+    pub(super) path: CurvePath,
+    pub(super) stages: Stages,
 }
 
 /// A search that ended by itself without a path.
-pub(super) type Ended = Status;
+pub(super) struct Ended {
+    pub(super) status: Status,
+    /// Why, where the status does not say it all.
+    pub(super) reason: Option<String>,
+    pub(super) stages: Stages,
+}
+
+impl Ended {
+    pub(super) fn new(status: Status, stages: Stages) -> Self {
+        Self {
+            status,
+            reason: None,
+            stages,
+        }
+    }
+
+    pub(super) fn because(status: Status, reason: String, stages: Stages) -> Self {
+        Self {
+            reason: Some(reason),
+            ..Self::new(status, stages)
+        }
+    }
+}
+
+impl From<Status> for Ended {
+    fn from(status: Status) -> Self {
+        Self::new(status, Stages::default())
+    }
+}
 
 impl Planner {
     /// Runs the configured search.
     pub(super) fn search(
         &mut self,
         request: &Request,
+        seed: Seed,
         limits: &mut Limits,
     ) -> Result<Result<Found, Ended>, PlanError> {
         let result = match self.config.planner {
@@ -42,12 +71,13 @@ impl Planner {
             }
             PlannerName::Astar => self.walk(request, limits, astar_path),
             PlannerName::Dijkstra => self.walk(request, limits, field_path),
+            _ => return self.send_ants(request, seed, limits),
         };
         match result {
             Ok(found) => Ok(Ok(found)),
-            Err(SearchError::Ended { status }) => Ok(Err(status)),
+            Err(SearchError::Ended { status }) => Ok(Err(status.into())),
             // The vehicle fits, but the disc that stands for it on the grid does not.
-            Err(SearchError::Blocked { .. }) => Ok(Err(Status::NoPath)),
+            Err(SearchError::Blocked { .. }) => Ok(Err(Status::NoPath.into())),
             Err(error) => Err(PlanError::Search(error)),
         }
     }
@@ -64,14 +94,15 @@ impl Planner {
             request,
         )?;
         limits.tell(&Event::SearchStarted);
-        Ok(hybrid_astar(&problem, limits).map(|(start, arcs)| {
+        let driven = hybrid_astar(&problem, limits).map_err(Ended::from);
+        Ok(driven.map(|(start, arcs)| {
             let start = match request.start_heading {
                 StartHeading::Exact => request.start,
                 StartHeading::Any => self.obstacles.frame().to_world(start).wrapped(),
             };
             Found {
                 path: curve(start, &arcs),
-                grid: None,
+                stages: Stages::default(),
             }
         }))
     }
@@ -93,6 +124,7 @@ impl Planner {
             vehicle,
             config,
             grid,
+            ..
         } = self;
         let (moves, workspace) = grid.get_or_insert_with(|| {
             let moves = MoveMasks::new(
@@ -113,7 +145,10 @@ impl Planner {
         let points = waypoints(&found.path, request, |cell| frame.center(cell));
         Ok(Found {
             path: CurvePath::from_polyline(&points),
-            grid: Some(found),
+            stages: Stages {
+                grid_path: Some(found.path),
+                ..Stages::default()
+            },
         })
     }
 
@@ -128,12 +163,13 @@ impl Planner {
         let n_steps = limits.n_steps();
         let found = match found {
             Ok(found) => found,
-            Err(status) => {
-                let reason = self.explain(request, status, n_steps);
+            Err(ended) => {
+                let explained = || self.explain(request, ended.status, n_steps);
                 return Outcome::NotFound(Box::new(NotFound {
-                    status,
-                    reason,
+                    status: ended.status,
+                    reason: ended.reason.unwrap_or_else(explained),
                     refused: None,
+                    stages: ended.stages,
                     n_steps,
                 }));
             }
@@ -149,12 +185,11 @@ impl Planner {
                     ClearanceSummary::new(&self.obstacles, &self.vehicle, &found.path, min_m);
                 let metrics = PathMetrics::new(&found.path, &self.vehicle, request.goal, clearance);
                 let planner = self.config.planner;
-                let grid_path = found.grid.map(|grid| grid.path);
                 Outcome::Found(Box::new(Plan {
                     planner,
                     seed,
                     path: found.path,
-                    grid_path,
+                    stages: found.stages,
                     certificate,
                     metrics,
                     n_steps,
@@ -176,6 +211,7 @@ impl Planner {
                     status: Status::Infeasible,
                     reason,
                     refused,
+                    stages: found.stages,
                     n_steps,
                 }))
             }
@@ -185,8 +221,7 @@ impl Planner {
 
 /// Cells on which the vehicle's middle may not be: within half its width of an obstacle.
 fn blocked(obstacles: &ObstacleMap, vehicle: &Vehicle) -> BitGrid {
-    let (low, high) = vehicle.footprint().bounds();
-    let half_width_cells = 0.5 * (high.y - low.y) / obstacles.frame().resolution_m();
+    let half_width_cells = 0.5 * vehicle.width_m() / obstacles.frame().resolution_m();
     let limit = f64::from(obstacles.distance().truncation_cells()) - 0.5;
     let grown = obstacles.distance().within(half_width_cells.min(limit));
     grown.unwrap_or_else(|| obstacles.lethal().clone())

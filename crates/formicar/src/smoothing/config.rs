@@ -1,6 +1,7 @@
 //! Parameters of smoothing.
 
 use super::RedundantNodes;
+use crate::numeric::{OutOfRange, check_range};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -70,20 +71,27 @@ impl SmoothingConfig {
         }
     }
 
-    /// The numbers with their keys and what is allowed.
-    pub(crate) fn ranges(&self) -> [(&'static str, f64, f64, f64); 6] {
-        [
-            ("n_members", f64::from(self.n_members), 1.0, 256.0),
-            ("station_radii", self.station_radii, 0.05, 10.0),
-            ("reach_radii", self.reach_radii, 0.0, 100.0),
-            ("passed_corner_radii", self.passed_corner_radii, 0.0, 1000.0),
-            ("reverse_penalty", self.reverse_penalty, 1.0, 100.0),
-            (
-                "direction_switching_cost",
-                self.direction_switching_cost,
-                0.0,
-                1000.0,
-            ),
-        ]
+    /// Checks the ranges.
+    ///
+    /// # Errors
+    /// The first parameter outside its range.
+    pub fn check(&self) -> Result<(), OutOfRange> {
+        let n_members = f64::from(self.n_members);
+        check_range("smoothing.n_members", n_members, 1.0..=256.0)?;
+        check_range("smoothing.station_radii", self.station_radii, 0.05..=10.0)?;
+        check_range("smoothing.reach_radii", self.reach_radii, 0.0..=100.0)?;
+        let passed = self.passed_corner_radii;
+        check_range("smoothing.passed_corner_radii", passed, 0.0..=1000.0)?;
+        check_range(
+            "smoothing.reverse_penalty",
+            self.reverse_penalty,
+            1.0..=100.0,
+        )?;
+        let switching = self.direction_switching_cost;
+        check_range(
+            "smoothing.direction_switching_cost",
+            switching,
+            0.0..=1000.0,
+        )
     }
 }

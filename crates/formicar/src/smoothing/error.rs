@@ -1,6 +1,7 @@
 //! Why a polyline does not become a drivable curve.
 
 use super::Corners;
+use crate::numeric::OutOfRange;
 use crate::scenario::Endpoint;
 use thiserror::Error;
 
@@ -9,17 +10,8 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum SmoothingError {
     /// A parameter outside its range.
-    #[error("{key} = {value}; it must be in {low} to {high}")]
-    OutOfRange {
-        /// The parameter.
-        key: &'static str,
-        /// Its value.
-        value: f64,
-        /// The least value allowed.
-        low: f64,
-        /// The greatest value allowed.
-        high: f64,
-    },
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
     /// A path without nodes.
     #[error("the path has no nodes; at least 1 is needed")]
     NoNodes,

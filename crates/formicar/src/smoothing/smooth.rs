@@ -75,15 +75,7 @@ pub fn smooth(
     request: &Request,
     nodes: &[Cell],
 ) -> Result<Smoothed, SmoothingError> {
-    let bad = |(_, value, low, high): &(_, f64, f64, f64)| !(low..=high).contains(&value);
-    if let Some((key, value, low, high)) = config.ranges().into_iter().find(bad) {
-        return Err(SmoothingError::OutOfRange {
-            key,
-            value,
-            low,
-            high,
-        });
-    }
+    config.check()?;
     if nodes.is_empty() {
         return Err(SmoothingError::NoNodes);
     }

@@ -139,6 +139,12 @@ impl Vehicle {
         &self.footprint
     }
 
+    /// Width of the body with its safety margin, metres; 0 for a point.
+    pub fn width_m(&self) -> f64 {
+        let (low, high) = self.footprint.bounds();
+        high.y - low.y
+    }
+
     /// Largest curvature of the rear-axle centre's path; infinite for a point.
     pub fn max_curvature_per_m(&self) -> f64 {
         self.max_curvature_per_m

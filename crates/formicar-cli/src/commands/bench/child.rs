@@ -83,7 +83,7 @@ fn fill(row: &mut Row, answered: &Answered) {
 
 fn fill_found(row: &mut Row, plan: &Plan, answered: &Answered) {
     row.fill(&to_value(&plan.metrics));
-    if let Some(grid_path) = &plan.grid_path {
+    if let Some(grid_path) = &plan.stages.grid_path {
         row.set("length_cells", &json!(length_cells(grid_path)));
     }
     let first_s = answered.answer.timing.first_feasible_s;

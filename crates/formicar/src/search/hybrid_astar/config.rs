@@ -1,5 +1,6 @@
 //! Parameters of hybrid A*.
 
+use crate::numeric::{OutOfRange, check_range};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -56,5 +57,48 @@ impl Default for HybridAstarConfig {
             cost_penalty: 1.0,
             clearance_wish_m: 0.3,
         }
+    }
+}
+
+impl HybridAstarConfig {
+    /// Checks the ranges.
+    ///
+    /// # Errors
+    /// The first parameter outside its range.
+    pub fn check(&self) -> Result<(), OutOfRange> {
+        let n_bins = f64::from(self.angle_quantization_bins);
+        check_range("hybrid_astar.weight", self.weight, 1.0..=10.0)?;
+        check_range("hybrid_astar.angle_quantization_bins", n_bins, 16.0..=360.0)?;
+        let n_iterations = self.max_iterations as f64;
+        check_range("hybrid_astar.max_iterations", n_iterations, 1.0..=1e9)?;
+        check_range("hybrid_astar.step_radii", self.step_radii, 0.05..=1.0)?;
+        check_range(
+            "hybrid_astar.reverse_penalty",
+            self.reverse_penalty,
+            1.0..=100.0,
+        )?;
+        let switching = self.direction_switching_cost;
+        check_range(
+            "hybrid_astar.direction_switching_cost",
+            switching,
+            0.0..=1000.0,
+        )?;
+        check_range(
+            "hybrid_astar.change_penalty",
+            self.change_penalty,
+            0.0..=100.0,
+        )?;
+        let non_straight = self.non_straight_penalty;
+        check_range(
+            "hybrid_astar.non_straight_penalty",
+            non_straight,
+            1.0..=100.0,
+        )?;
+        check_range("hybrid_astar.cost_penalty", self.cost_penalty, 0.0..=100.0)?;
+        check_range(
+            "hybrid_astar.clearance_wish_m",
+            self.clearance_wish_m,
+            0.0..=100.0,
+        )
     }
 }

@@ -1,0 +1,133 @@
+//! Planning by a colony: layers, ants over cells, nodes, a curve.
+
+use super::run::{Ended, Found};
+use super::{PlanError, Planner, Stages};
+use crate::colony::{ColonyProblem, ColonyRun, RunError, Stop, run};
+use crate::layers::Layers;
+use crate::map::{Cell, MoveMasks};
+use crate::numeric::Seed;
+use crate::progress::{Event, Limits, Status};
+use crate::scenario::Request;
+use crate::search::SearchError;
+use crate::smoothing::{Ground, smooth};
+
+impl Planner {
+    /// Sends the configured colony, and makes its best path drivable.
+    pub(super) fn send_ants(
+        &self,
+        request: &Request,
+        seed: Seed,
+        limits: &mut Limits,
+    ) -> Result<Result<Found, Ended>, PlanError> {
+        let mut stages = Stages::default();
+        let ends = self.lay(request, &mut stages);
+        let ends = match ends {
+            Ok(ends) => ends,
+            Err(reason) => return Ok(Err(Ended::because(Status::NoPath, reason, stages))),
+        };
+        limits.tell(&Event::SearchStarted);
+        let run = match self.run_colony(ends, seed, &stages, limits) {
+            Ok(run) => run,
+            Err(RunError::Search(SearchError::Ended { status })) => {
+                return Ok(Err(Ended::new(status, stages)));
+            }
+            Err(error) => return Err(PlanError::Colony(error)),
+        };
+        let (best, stop) = (run.best.clone(), run.stop);
+        let ended = self.explain_colony(&run);
+        stages.colony = Some(run);
+        stages.grid_path = best;
+        if stages.grid_path.is_none() || stop == Stop::Cancelled {
+            return Ok(Err(Ended {
+                reason: ended,
+                ..Ended::new(stop.status(), stages)
+            }));
+        }
+        Ok(self.curve_of(request, stages))
+    }
+
+    /// Lays the layers, and finds the cells between which ants walk: those of start and goal or,
+    /// where these are covered, the nearest that are not.
+    fn lay(&self, request: &Request, stages: &mut Stages) -> Result<[Cell; 2], String> {
+        let frame = self.obstacles.frame();
+        let cell = |pose: crate::geometry::Pose2| frame.cell_at(pose.position());
+        let ends = [request.start, request.goal].map(|pose| cell(pose).unwrap_or_default());
+        let width_cells = self.vehicle.width_m() / frame.resolution_m();
+        let config = &self.config.layers;
+        let rule = self.config.colony.diagonal_rule;
+        let layers = Layers::new(self.obstacles.lethal(), config, &ends, rule, width_cells);
+        // The body is free at both ends, so its middle is no farther than this from open ground.
+        let radius = 2 * config.expansion.n_cells(width_cells) + 1;
+        let open = |end: &str, cell: Cell| {
+            layers.nearest_open(cell, radius).ok_or_else(|| {
+                format!(
+                    "no cell within {radius} cells of the {end} is open after obstacle expansion; hint: a smaller layers.expansion"
+                )
+            })
+        };
+        let ends = [open("start", ends[0])?, open("goal", ends[1])?];
+        stages.layers = Some(layers);
+        Ok(ends)
+    }
+
+    fn run_colony(
+        &self,
+        [start, goal]: [Cell; 2],
+        seed: Seed,
+        stages: &Stages,
+        limits: &mut Limits,
+    ) -> Result<ColonyRun, RunError> {
+        let config = &self.config.colony;
+        let blocked = stages.layers.as_ref().map(|layers| &layers.blocked);
+        let blocked = blocked.unwrap_or(self.obstacles.lethal());
+        let moves = MoveMasks::new(blocked, config.diagonal_rule);
+        let problem = ColonyProblem::new(moves, start, goal);
+        run(&problem, config, seed, self.n_threads, limits)
+    }
+
+    /// Makes the best path of the colony drivable.
+    fn curve_of(&self, request: &Request, mut stages: Stages) -> Result<Found, Ended> {
+        let blocked = stages.layers.as_ref().map(|layers| &layers.blocked);
+        let ground = Ground {
+            obstacles: &self.obstacles,
+            vehicle: &self.vehicle,
+            blocked: blocked.unwrap_or(self.obstacles.lethal()),
+            rule: self.config.colony.diagonal_rule,
+        };
+        let path = stages.grid_path.clone().unwrap_or_default();
+        let config = &self.config.smoothing;
+        let nodes = config
+            .redundant_nodes
+            .apply(ground.blocked, ground.rule, &path);
+        let smoothed = smooth(&ground, config, request, &nodes);
+        stages.nodes = nodes;
+        match smoothed {
+            Ok(smoothed) => {
+                stages.corners = smoothed.corners;
+                Ok(Found {
+                    path: smoothed.path,
+                    stages,
+                })
+            }
+            Err(error) => {
+                let reason = format!(
+                    "the ants found a way of {} cells that cannot be made drivable: {error}",
+                    path.cells.len()
+                );
+                Err(Ended::because(Status::Infeasible, reason, stages))
+            }
+        }
+    }
+
+    /// Why a colony has no path, where that is its own fault.
+    fn explain_colony(&self, run: &ColonyRun) -> Option<String> {
+        let colony = &self.config.colony;
+        let n_iterations = run.history.iterations.len();
+        matches!(run.stop, Stop::Iterations | Stop::Stall).then(|| {
+            format!(
+                "none of {} ants reached the goal in {n_iterations} iterations; hint: more ants (colony.n_ants), colony.guidance.rule=\"advantage\" or colony.dead_end.rule=\"retreat\"",
+                colony.n_ants
+            )
+        })
+    }
+}
