@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// `tau_max` = Q / (rho F) with the cost F of the best path so far, and
 /// `tau_min` = `tau_max` (1 - p^(1/n)) / ((c - 1) p^(1/n)): with these limits a converged colony
 /// walks its best path of n steps again with probability p, where ants choose from c steps on
-/// average (Stützle & Hoos 2000, equations 7 and 11).
+/// average (Stützle & Hoos 2000, section 3.2).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct MaxMin {
