@@ -6,12 +6,13 @@
 //!
 //! Modules are ranked, and each uses only those before it: [`numeric`], [`geometry`], [`vehicle`],
 //! [`map`], [`path`], [`collision`], [`scenario`], [`validation`], [`metrics`], [`progress`],
-//! [`search`], [`planner`], [`render`]. SI units and radians inside; a pose is the center of the
-//! rear axle, x forward, y left, heading counter-clockwise.
+//! [`layers`], [`search`], [`planner`], [`render`]. SI units and radians inside; a pose is the center
+//! of the rear axle, x forward, y left, heading counter-clockwise.
 #![forbid(unsafe_code)]
 
 pub mod collision;
 pub mod geometry;
+pub mod layers;
 pub mod map;
 pub mod metrics;
 pub mod numeric;
