@@ -6,14 +6,15 @@
 //!
 //! Modules are ranked, and each uses only those before it: [`numeric`], [`geometry`], [`vehicle`],
 //! [`map`], [`path`], [`collision`], [`scenario`], [`validation`], [`metrics`], [`progress`],
-//! [`objective`], [`smoothing`], [`search`], [`colony`], [`planner`], [`render`]. SI units and
-//! radians inside; a pose is the center of the rear axle, x forward, y left, heading counter-
-//! clockwise.
+//! [`layers`], [`objective`], [`smoothing`], [`search`], [`colony`], [`planner`], [`render`]. SI
+//! units and radians inside; a pose is the center of the rear axle, x forward, y left, heading
+//! counter-clockwise.
 #![forbid(unsafe_code)]
 
 pub mod collision;
 pub mod colony;
 pub mod geometry;
+pub mod layers;
 pub mod map;
 pub mod metrics;
 pub mod numeric;

@@ -1,6 +1,7 @@
 //! A set of cells, one bit each, rows padded to whole words.
 
 use super::Cell;
+use std::ops::Range;
 
 /// A set of cells of a grid, row by row in 64-bit words; bits past the last column are 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,6 +67,59 @@ impl BitGrid {
         self.row_mut(cell.row as usize)[col / 64] |= 1 << (col % 64);
     }
 
+    /// Takes a cell out of the set.
+    pub fn remove(&mut self, cell: Cell) {
+        let col = cell.col as usize;
+        self.row_mut(cell.row as usize)[col / 64] &= !(1 << (col % 64));
+    }
+
+    /// Takes some cells out of the set.
+    pub fn remove_all(&mut self, cells: impl IntoIterator<Item = Cell>) {
+        for cell in cells {
+            self.remove(cell);
+        }
+    }
+
+    /// Puts all cells of another set of the same grid into this one.
+    pub fn unite(&mut self, other: &Self) {
+        debug_assert_eq!((self.n_cols, self.n_rows), (other.n_cols, other.n_rows));
+        for (word, other) in self.words.iter_mut().zip(&other.words) {
+            *word |= other;
+        }
+    }
+
+    /// The cells of the grid that are not in the set.
+    #[must_use]
+    pub fn complement(&self) -> Self {
+        let mut complement = self.clone();
+        for word in &mut complement.words {
+            *word = !*word;
+        }
+        complement.clear_padding();
+        complement
+    }
+
+    /// Empties the bits past the last column.
+    pub(crate) fn clear_padding(&mut self) {
+        let n_last = self.n_cols % 64;
+        if n_last == 0 {
+            return;
+        }
+        for row in self.words.chunks_exact_mut(self.words_per_row) {
+            row[self.words_per_row - 1] &= (1 << n_last) - 1;
+        }
+    }
+
+    /// The runs of a row's cells that are in the set, as long as they go.
+    pub fn runs(&self, row: usize) -> impl Iterator<Item = Range<usize>> + '_ {
+        runs(self.row(row), self.n_cols, u64::MAX)
+    }
+
+    /// The runs of a row's cells that are not in the set, as long as they go.
+    pub fn gaps(&self, row: usize) -> impl Iterator<Item = Range<usize>> + '_ {
+        runs(self.row(row), self.n_cols, 0)
+    }
+
     /// Number of cells in the set.
     pub fn count(&self) -> usize {
         self.words.iter().map(|w| w.count_ones() as usize).sum()
@@ -82,6 +136,37 @@ impl BitGrid {
                 })
         })
     }
+}
+
+impl Extend<Cell> for BitGrid {
+    fn extend<T: IntoIterator<Item = Cell>>(&mut self, cells: T) {
+        for cell in cells {
+            self.insert(cell);
+        }
+    }
+}
+
+/// The runs of columns whose bit is that of `wanted`, all ones or all zeros.
+fn runs(words: &[u64], n_cols: usize, wanted: u64) -> impl Iterator<Item = Range<usize>> {
+    let mut end = 0;
+    std::iter::from_fn(move || {
+        let first = next_cell(words, end, n_cols, wanted);
+        end = next_cell(words, first, n_cols, !wanted);
+        (first < n_cols).then_some(first..end)
+    })
+}
+
+/// The first column from `col` on whose bit is that of `wanted`, or `n_cols`.
+fn next_cell(words: &[u64], col: usize, n_cols: usize, wanted: u64) -> usize {
+    let mut mask = u64::MAX << (col % 64);
+    for (w, &word) in words.iter().enumerate().skip(col / 64) {
+        let hits = (word ^ !wanted) & mask;
+        if hits != 0 {
+            return (w * 64 + hits.trailing_zeros() as usize).min(n_cols);
+        }
+        mask = u64::MAX;
+    }
+    n_cols
 }
 
 /// The places of the set bits of a word, lowest first.
@@ -108,11 +193,16 @@ mod tests {
             Cell::new(64, 1),
             Cell::new(129, 2),
         ];
-        for cell in cells {
-            set.insert(cell);
-        }
+        set.extend(cells);
         assert_eq!(set.iter().collect::<Vec<_>>(), cells);
         assert_eq!(set.count(), 4);
         assert!(set.contains(129, 2) && !set.contains(130, 2) && !set.contains(-1, 0));
+        set.remove_all([Cell::new(63, 1)]);
+        assert_eq!(set.runs(1).next(), Some(64..65));
+        assert_eq!(set.gaps(1).collect::<Vec<_>>(), [0..64, 65..130]);
+        let complement = set.complement();
+        assert_eq!(complement.count(), 3 * 130 - 3);
+        set.unite(&complement);
+        assert_eq!(set.runs(2).next(), Some(0..130));
     }
 }

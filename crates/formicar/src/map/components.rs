@@ -90,30 +90,14 @@ fn free_runs(blocked: &BitGrid) -> (Vec<Run>, Vec<usize>) {
     let mut runs = Vec::new();
     let mut row_starts = vec![0];
     for row in 0..blocked.n_rows() {
-        let words = blocked.row(row);
-        let mut first = next_cell(words, 0, blocked.n_cols(), 0);
-        while first < blocked.n_cols() {
-            let end = next_cell(words, first, blocked.n_cols(), u64::MAX);
-            runs.push(Run { row, first, end });
-            first = next_cell(words, end, blocked.n_cols(), 0);
-        }
+        runs.extend(blocked.gaps(row).map(|gap| Run {
+            row,
+            first: gap.start,
+            end: gap.end,
+        }));
         row_starts.push(runs.len());
     }
     (runs, row_starts)
-}
-
-/// The first column from `col` on whose bit is that of `wanted` (all zeros or all ones), or
-/// `n_cols`.
-fn next_cell(words: &[u64], col: usize, n_cols: usize, wanted: u64) -> usize {
-    let mut mask = u64::MAX << (col % 64);
-    for (w, &word) in words.iter().enumerate().skip(col / 64) {
-        let hits = (word ^ !wanted) & mask;
-        if hits != 0 {
-            return (w * 64 + hits.trailing_zeros() as usize).min(n_cols);
-        }
-        mask = u64::MAX;
-    }
-    n_cols
 }
 
 /// Joins the runs of two rows, each from left to right, where they are next to each other.

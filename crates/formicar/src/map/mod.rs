@@ -16,6 +16,7 @@ mod neighborhood;
 mod orientation;
 mod raster;
 mod sketch;
+mod step_cost;
 
 pub use bit_grid::BitGrid;
 pub(crate) use bit_grid::set_bits;
@@ -27,3 +28,5 @@ pub use grid::{FREE, MAX_CELLS, MapError, OCCUPIED, OccupancyGrid, UNKNOWN, Unkn
 pub use line_of_sight::{cells_in_sight, line_of_sight, touched_cells};
 pub use move_masks::MoveMasks;
 pub use neighborhood::{Connectivity, DiagonalRule, STEPS, ring};
+pub(crate) use step_cost::STEP_COSTS;
+pub use step_cost::{DIAGONAL_COST, STRAIGHT_COST};

@@ -2,6 +2,7 @@
 
 use super::neighborhood::{DiagonalRule, STEPS};
 use super::{BitGrid, Cell};
+use std::ops::Range;
 
 /// For each cell the set of its allowed steps to neighbors: bit `i` stands for [`STEPS`]`[i]`.
 ///
@@ -18,23 +19,51 @@ impl MoveMasks {
     /// The moves between the cells that are not blocked.
     pub fn new(blocked: &BitGrid, rule: DiagonalRule) -> Self {
         let (n_cols, n_rows) = (blocked.n_cols(), blocked.n_rows());
-        let mut masks = vec![0; n_cols * n_rows];
+        let mut moves = Self {
+            blocked: blocked.clone(),
+            rule,
+            masks: vec![0; n_cols * n_rows],
+        };
+        moves.refresh(0..n_cols.div_ceil(64), 0..n_rows);
+        moves
+    }
+
+    /// Changes which cells are blocked, within a range of columns and of rows, and the moves of
+    /// these cells and their neighbors.
+    ///
+    /// Cost is proportional to the cells of both ranges.
+    pub fn change(
+        &mut self,
+        cols: Range<usize>,
+        rows: Range<usize>,
+        change: impl FnOnce(&mut BitGrid),
+    ) {
+        change(&mut self.blocked);
+        let grown =
+            |range: Range<usize>, n: usize| range.start.saturating_sub(1)..(range.end + 1).min(n);
+        let (cols, rows) = (grown(cols, self.n_cols()), grown(rows, self.n_rows()));
+        self.refresh(cols.start / 64..cols.end.div_ceil(64), rows);
+    }
+
+    /// Works out the moves in a range of words and of rows.
+    fn refresh(&mut self, words: Range<usize>, rows: Range<usize>) {
+        let n_cols = self.n_cols();
+        let cols = words.start * 64..n_cols.min(words.end * 64);
+        let free = |buffer: Vec<u64>, row: i64, blocked: &BitGrid| {
+            load_free(buffer, blocked, row, words.start)
+        };
+        let first_row = rows.start as i64;
         let [mut below, mut here, mut above] =
-            [-1, 0, 1].map(|row| load_free(vec![0; n_cols.div_ceil(64) + 2], blocked, row));
-        for row in 0..n_rows {
-            let cells = &mut masks[row * n_cols..][..n_cols];
+            [-1, 0, 1].map(|row| free(vec![0; words.len() + 2], first_row + row, &self.blocked));
+        for row in rows {
+            let cells = &mut self.masks[row * n_cols..][cols.clone()];
             for (w, cells) in cells.chunks_mut(64).enumerate() {
                 let rows = [&below, &here, &above].map(|free| shifts(&free[w..w + 3]));
-                cells.copy_from_slice(&interleave(moves(rows, rule))[..cells.len()]);
+                cells.copy_from_slice(&interleave(moves(rows, self.rule))[..cells.len()]);
             }
             std::mem::swap(&mut below, &mut here);
             std::mem::swap(&mut here, &mut above);
-            above = load_free(above, blocked, row as i64 + 2);
-        }
-        Self {
-            blocked: blocked.clone(),
-            rule,
-            masks,
+            above = free(above, row as i64 + 2, &self.blocked);
         }
     }
 
@@ -85,19 +114,20 @@ impl MoveMasks {
     }
 }
 
-/// The free cells of a row, none off the grid, with an empty word before and after.
-fn load_free(mut words: Vec<u64>, blocked: &BitGrid, row: i64) -> Vec<u64> {
+/// The free cells of a row, none off the grid, from the word before `first` on.
+fn load_free(mut words: Vec<u64>, blocked: &BitGrid, row: i64, first: usize) -> Vec<u64> {
     words.fill(0);
     if !(0..blocked.n_rows() as i64).contains(&row) {
         return words;
     }
-    for (free, &blocked) in words[1..].iter_mut().zip(blocked.row(row as usize)) {
+    let n_before = first.min(1);
+    let source = &blocked.row(row as usize)[first - n_before..];
+    for (free, &blocked) in words[1 - n_before..].iter_mut().zip(source) {
         *free = !blocked;
     }
-    let n_last = blocked.n_cols() % 64;
-    if n_last != 0 {
-        let last = words.len() - 2;
-        words[last] &= (1 << n_last) - 1;
+    let (last, n_last) = (blocked.n_cols() / 64, blocked.n_cols() % 64);
+    if n_last != 0 && last + 1 - first < words.len() {
+        words[last + 1 - first] &= (1 << n_last) - 1;
     }
     words
 }
@@ -215,6 +245,29 @@ mod tests {
                     let cell = moves.cell(i);
                     prop_assert_eq!(moves.moves(cell), by_definition(&grid, rule, cell), "{:?}", cell);
                 }
+            }
+        }
+
+        #[test]
+        fn a_change_gives_the_moves_of_the_changed_grid(
+            n_cols in 1_usize..200,
+            cells in prop::collection::vec((any::<prop::sample::Index>(), 0_u32..7), 60),
+            corners in prop::array::uniform2((any::<prop::sample::Index>(), 0_usize..7)),
+        ) {
+            let place = |(col, row): &(prop::sample::Index, u32)| Cell::new(col.index(n_cols) as u32, *row);
+            let mut before = BitGrid::new(n_cols, 7);
+            before.extend(cells[..30].iter().map(place));
+            let [a, b] = corners.map(|(col, row)| (col.index(n_cols), row));
+            let (cols, rows) = (a.0.min(b.0)..a.0.max(b.0) + 1, a.1.min(b.1)..a.1.max(b.1) + 1);
+            let within = |c: &Cell| cols.contains(&(c.col as usize)) && rows.contains(&(c.row as usize));
+            for rule in RULES {
+                let mut moves = MoveMasks::new(&before, rule);
+                moves.change(cols.clone(), rows.clone(), |blocked| {
+                    blocked.remove_all(cells[..30].iter().map(place).filter(within));
+                    blocked.extend(cells[30..].iter().map(place).filter(within));
+                });
+                let expected = MoveMasks::new(&moves.blocked, rule);
+                prop_assert_eq!(moves, expected);
             }
         }
     }

@@ -1,22 +1,9 @@
-//! Costs of steps as integers, so that sums are exact and ties are ties.
+//! How far the integer costs of steps reach, and which steps are worth their cost.
+
+pub use crate::map::{DIAGONAL_COST, STRAIGHT_COST};
 
 use crate::map::Cell;
-
-/// Cost of a straight step.
-pub const STRAIGHT_COST: u32 = 985;
-/// Cost of a diagonal step: 1393 / 985 is a convergent of sqrt(2), 2.6e-7 below it in proportion.
-pub const DIAGONAL_COST: u32 = 1393;
-
-/// Costs by place in [`STEPS`](crate::map::STEPS).
-pub(super) const STEP_COSTS: [u32; 8] = {
-    let mut costs = [STRAIGHT_COST; 8];
-    let mut i = 1;
-    while i < 8 {
-        costs[i] = DIAGONAL_COST;
-        i += 2;
-    }
-    costs
-};
+pub(super) use crate::map::STEP_COSTS;
 
 /// The largest cost from which a step may be taken; sums then fit 32 bits.
 pub(super) const MAX_COST: u32 = u32::MAX - 1 - DIAGONAL_COST;

@@ -1,0 +1,92 @@
+//! Parameters of the layers.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The most cells that [`Expansion::Cells`] may ask for.
+pub const MAX_EXPANSION_CELLS: u32 = 64;
+
+/// A share of a cell by which a width may exceed whole cells and still count as whole, so that
+/// rounding adds no cell.
+const WIDTH_TOLERANCE_CELLS: f64 = 1e-6;
+
+/// What is laid over a map before ants walk on it; by default nothing.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct LayersConfig {
+    /// By how many cells obstacles are grown: `none`, `half-width` (of the vehicle), or
+    /// `{ cells = n }`, n in 0 to 64.
+    pub expansion: Expansion,
+    /// What becomes of the U-shaped areas of obstacles: `keep` or `close`.
+    pub u_shapes: UShapes,
+}
+
+/// By how many cells around obstacles the ground becomes impassable.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Expansion {
+    /// By none.
+    #[default]
+    None,
+    /// By half the vehicle's width, rounded up to whole cells (Lei 2020, sec. II.B).
+    HalfWidth,
+    /// By a number of cells, 0 to [`MAX_EXPANSION_CELLS`].
+    Cells(#[schemars(range(min = 0, max = 64))] u32),
+}
+
+impl Expansion {
+    /// The number of cells for a vehicle whose width is given in cells.
+    pub fn n_cells(self, vehicle_width_cells: f64) -> u32 {
+        match self {
+            Self::None => 0,
+            Self::HalfWidth => (0.5 * vehicle_width_cells - WIDTH_TOLERANCE_CELLS).ceil() as u32,
+            Self::Cells(n_cells) => n_cells,
+        }
+    }
+}
+
+/// What becomes of the areas that an obstacle embraces.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum UShapes {
+    /// They stay open.
+    #[default]
+    Keep,
+    /// They are closed where that lengthens no way around them (Lei 2020, sec. II.C).
+    Close,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn half_a_width_is_rounded_up_to_cells_but_not_by_rounding_errors() {
+        let n_cells =
+            |width_m: f64, resolution_m: f64| Expansion::HalfWidth.n_cells(width_m / resolution_m);
+        // Lei 2020, sec. II.B: cells of half the vehicle's width.
+        assert_eq!(n_cells(1.0, 0.5), 1);
+        assert_eq!(n_cells(0.62, 0.05), 7);
+        assert_eq!(n_cells(0.3, 0.05), 3);
+        assert_eq!(n_cells(0.0, 0.05), 0);
+        assert_eq!(Expansion::None.n_cells(8.0), 0);
+        assert_eq!(Expansion::Cells(3).n_cells(8.0), 3);
+    }
+
+    #[test]
+    fn words_are_read_back() {
+        let config = LayersConfig {
+            expansion: Expansion::Cells(2),
+            u_shapes: UShapes::Close,
+        };
+        let json = serde_json::to_string(&config).unwrap();
+        assert_eq!(json, r#"{"expansion":{"cells":2},"u_shapes":"close"}"#);
+        assert_eq!(serde_json::from_str::<LayersConfig>(&json).unwrap(), config);
+        let half: LayersConfig = serde_json::from_str(r#"{"expansion":"half-width"}"#).unwrap();
+        assert_eq!(
+            (half.expansion, half.u_shapes),
+            (Expansion::HalfWidth, UShapes::Keep)
+        );
+        assert!(serde_json::from_str::<LayersConfig>(r#"{"expand":2}"#).is_err());
+    }
+}
