@@ -58,16 +58,14 @@ impl Closing {
 
     /// Closes a pocket if nobody needs a detour then; what became of it, and the cells closed.
     pub(super) fn try_close(&mut self, pocket: &OpenPocket) -> (PocketFate, Vec<Cell>) {
-        for &cell in &pocket.cells {
-            self.pocket.insert(cell);
-        }
+        self.pocket.extend(pocket.cells.iter().copied());
         let rim = self.rim(pocket);
         let fate = if rim.is_empty() {
             PocketFate::NoMouth
         } else {
             self.shut(pocket);
             self.spare_corners(pocket, &rim);
-            self.judge(pocket, &rim)
+            self.fate(pocket, &rim)
         };
         (fate, self.conclude(pocket, fate))
     }
@@ -123,7 +121,7 @@ impl Closing {
     fn shut(&mut self, pocket: &OpenPocket) {
         let (cols, rows) = (pocket.cols.clone(), pocket.rows.clone());
         self.shut.change(cols, rows, |blocked| {
-            pocket.cells.iter().for_each(|&cell| blocked.insert(cell));
+            blocked.extend(pocket.cells.iter().copied());
         });
     }
 
@@ -141,13 +139,13 @@ impl Closing {
         }
         if !spared.is_empty() {
             let (cols, rows) = (pocket.cols.clone(), pocket.rows.clone());
-            self.shut.change(cols, rows, |blocked| {
-                spared.iter().for_each(|&cell| blocked.remove(cell));
-            });
+            self.shut
+                .change(cols, rows, |blocked| blocked.remove_all(spared));
         }
     }
 
-    fn judge(&mut self, pocket: &OpenPocket, rim: &[Cell]) -> PocketFate {
+    /// What closing the pocket as tried would do.
+    fn fate(&mut self, pocket: &OpenPocket, rim: &[Cell]) -> PocketFate {
         if !pocket.cells.iter().any(|&cell| self.is_shut(cell)) {
             return PocketFate::WouldHarm;
         }
@@ -167,19 +165,15 @@ impl Closing {
     fn conclude(&mut self, pocket: &OpenPocket, fate: PocketFate) -> Vec<Cell> {
         let cells = pocket.cells.iter().copied();
         let shut: Vec<Cell> = cells.filter(|&cell| self.is_shut(cell)).collect();
-        for &cell in &pocket.cells {
-            self.pocket.remove(cell);
-        }
+        self.pocket.remove_all(pocket.cells.iter().copied());
         let (cols, rows) = (pocket.cols.clone(), pocket.rows.clone());
         if fate == PocketFate::Closed {
-            self.open.change(cols, rows, |blocked| {
-                shut.iter().for_each(|&cell| blocked.insert(cell));
-            });
+            self.open
+                .change(cols, rows, |blocked| blocked.extend(shut.iter().copied()));
             return shut;
         }
-        self.shut.change(cols, rows, |blocked| {
-            shut.iter().for_each(|&cell| blocked.remove(cell));
-        });
+        self.shut
+            .change(cols, rows, |blocked| blocked.remove_all(shut));
         Vec::new()
     }
 }

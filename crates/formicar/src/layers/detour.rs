@@ -22,7 +22,7 @@ pub(super) struct OutOfSteps;
 /// keeps labels in 32 bits.
 const STEPS_AT_LEAST: usize = 1 << 12;
 const STEPS_PER_CELL: usize = 64;
-const STEPS_AT_MOST: usize = 1 << 20;
+const STEPS_AT_MOST: usize = 1 << 18;
 
 /// Dijkstra's search, with memory that is reused from pocket to pocket.
 ///
@@ -66,7 +66,7 @@ impl Detours {
         }
         let granted = STEPS_AT_LEAST + STEPS_PER_CELL * n_pocket_cells;
         let mut n_steps = granted.min(STEPS_AT_MOST);
-        rim.iter().for_each(|&cell| self.targets.insert(cell));
+        self.targets.extend(rim.iter().copied());
         let mut answer = Ok(false);
         for (i, &cell) in rim.iter().enumerate() {
             self.targets.remove(cell);
@@ -220,11 +220,11 @@ mod tests {
     fn all_costs(moves: &MoveMasks) -> Vec<Vec<u32>> {
         let n = moves.as_slice().len();
         let mut costs = vec![vec![u32::MAX / 4; n]; n];
-        for i in 0..n {
-            costs[i][i] = 0;
+        for (i, costs) in costs.iter_mut().enumerate() {
+            costs[i] = 0;
             for step in set_bits(moves.as_slice()[i].into()) {
                 let next = i.wrapping_add_signed(moves.offsets()[step as usize]);
-                costs[i][next] = STEP_COSTS[step as usize];
+                costs[next] = STEP_COSTS[step as usize];
             }
         }
         for k in 0..n {
@@ -241,7 +241,7 @@ mod tests {
 
     fn grid(n_cols: usize, cells: impl Iterator<Item = usize>) -> BitGrid {
         let mut grid = BitGrid::new(n_cols, n_cols);
-        cells.for_each(|i| grid.insert(Cell::new((i % n_cols) as u32, (i / n_cols) as u32)));
+        grid.extend(cells.map(|i| Cell::new((i % n_cols) as u32, (i / n_cols) as u32)));
         grid
     }
 

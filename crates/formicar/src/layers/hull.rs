@@ -53,7 +53,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn span(&(first, length): &(u32, u32)) -> Span {
+    fn span((first, length): (u32, u32)) -> Span {
         Span {
             first,
             last: first + length,
@@ -62,15 +62,15 @@ mod tests {
 
     #[test]
     fn a_line_between_two_cells_keeps_the_centers_on_it() {
-        let spans = [(0, 0), (5, 0), (4, 0)].map(|s| span(&s));
+        let spans = [(0, 0), (5, 0), (4, 0)].map(span);
         let hull = hull_spans(&spans);
-        assert_eq!(hull, [(0, 0), (2, 3), (4, 0)].map(|s| span(&s)));
+        assert_eq!(hull, [(0, 0), (2, 3), (4, 0)].map(span));
     }
 
     proptest! {
         #[test]
         fn equals_a_test_of_triangles(spans in prop::collection::vec((0_u32..12, 0_u32..4), 1..10)) {
-            let spans: Vec<Span> = spans.iter().map(span).collect();
+            let spans: Vec<Span> = spans.into_iter().map(span).collect();
             let hull = hull_spans(&spans);
             let cells: Vec<(i64, i64)> = spans
                 .iter()

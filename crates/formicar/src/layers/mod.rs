@@ -63,31 +63,29 @@ impl Layers {
         layers
     }
 
-    /// The open cell whose center is nearest to that of a cell, the cell itself if it is open, the
-    /// first in row-major order among equals; none within `max_radius_cells`.
+    /// The open cell whose center is nearest to that of a cell: the cell itself if it is open, the
+    /// first in row-major order among equals; none if all within `max_radius_cells` are blocked or
+    /// the cell is off the map.
     ///
-    /// Cost grows with the square of the distance.
+    /// Where expansion covers a start or a goal, ants begin and end their way there instead. Cost
+    /// grows with the square of the distance.
     pub fn nearest_open(&self, cell: Cell, max_radius_cells: u32) -> Option<Cell> {
         let (n_cols, n_rows) = (self.blocked.n_cols(), self.blocked.n_rows());
-        let mut nearest: Option<(u64, Cell)> = None;
-        let mut limit = u64::from(max_radius_cells).pow(2);
-        for radius in 0..=max_radius_cells {
-            if u64::from(radius).pow(2) > limit {
+        if cell.col as usize >= n_cols || cell.row as usize >= n_rows {
+            return None;
+        }
+        let is_open = |cell: &Cell| !self.blocked.get(cell.col as usize, cell.row as usize);
+        let by_distance = |open: Cell| (squared_distance(cell, open), open.row, open.col);
+        let limit = u64::from(max_radius_cells).pow(2);
+        let mut nearest = (limit + 1, 0, 0);
+        for radius in 0..n_cols.max(n_rows) as u32 {
+            if u64::from(radius).pow(2) > nearest.0.min(limit) {
                 break;
             }
-            for open in ring(cell, radius, n_cols, n_rows) {
-                let candidate = (squared_distance(cell, open), open);
-                let is_open = !self.blocked.get(open.col as usize, open.row as usize);
-                if is_open
-                    && candidate.0 <= limit
-                    && nearest.is_none_or(|n| is_before(candidate, n))
-                {
-                    nearest = Some(candidate);
-                    limit = candidate.0;
-                }
-            }
+            let open = ring(cell, radius, n_cols, n_rows).filter(is_open);
+            nearest = open.map(by_distance).fold(nearest, Ord::min);
         }
-        nearest.map(|(_, open)| open)
+        (nearest.0 <= limit).then(|| Cell::new(nearest.2, nearest.1))
     }
 
     /// Number of pockets with a fate.
@@ -99,21 +97,127 @@ impl Layers {
     }
 
     fn close_u_shapes(&mut self, ends: &[Cell], rule: DiagonalRule) {
-        let anywhere = self.blocked.n_cols().max(self.blocked.n_rows()) as u32;
-        let open_ends = ends
-            .iter()
-            .filter_map(|&end| self.nearest_open(end, 2 * anywhere));
-        let open_ends: Vec<Cell> = open_ends.collect();
-        (self.closed, self.pockets) = u_shapes::close_u_shapes(&self.blocked, &open_ends, rule);
+        let ends = ends.iter();
+        let ends: Vec<Cell> = ends
+            .filter_map(|&end| self.nearest_open(end, MAX_RADIUS))
+            .collect();
+        (self.closed, self.pockets) = u_shapes::close_u_shapes(&self.blocked, &ends, rule);
         self.blocked.unite(&self.closed);
     }
 }
+
+/// A radius that reaches all over every map.
+const MAX_RADIUS: u32 = u32::MAX;
 
 fn squared_distance(a: Cell, b: Cell) -> u64 {
     u64::from(a.col.abs_diff(b.col)).pow(2) + u64::from(a.row.abs_diff(b.row)).pow(2)
 }
 
-/// Whether a cell is nearer than another or, equally near, before it in row-major order.
-fn is_before(a: (u64, Cell), b: (u64, Cell)) -> bool {
-    (a.0, a.1.row, a.1.col) < (b.0, b.1.row, b.1.col)
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::map::OccupancyGrid;
+    use proptest::prelude::*;
+
+    const CLOSE: LayersConfig = LayersConfig {
+        expansion: Expansion::HalfWidth,
+        u_shapes: UShapes::Close,
+    };
+
+    fn lethal(rows: &[&str]) -> BitGrid {
+        OccupancyGrid::from_rows(rows, 1.0).unwrap().lethal_cells()
+    }
+
+    /// A map with its layers: `#` obstacles, `+` expanded, `x` closed.
+    fn drawn(layers: &Layers) -> Vec<String> {
+        let map = &layers.obstacles;
+        let letter = |col: usize, row: usize| {
+            let marks = [(map, '#'), (&layers.expanded, '+'), (&layers.closed, 'x')];
+            let mark = marks.into_iter().find(|(set, _)| set.get(col, row));
+            assert_eq!(mark.is_some(), layers.blocked.get(col, row));
+            mark.map_or('.', |(_, letter)| letter)
+        };
+        let rows = (0..map.n_rows()).rev();
+        rows.map(|row| (0..map.n_cols()).map(|col| letter(col, row)).collect())
+            .collect()
+    }
+
+    const U: [&str; 8] = [
+        "...........",
+        "...........",
+        ".#.......#.",
+        ".#.......#.",
+        ".#.......#.",
+        ".#.......#.",
+        ".#########.",
+        "...........",
+    ];
+
+    #[test]
+    fn obstacles_grow_and_what_they_embrace_then_is_closed() {
+        let ends = [Cell::new(5, 7), Cell::new(0, 7)];
+        let layers = Layers::new(&lethal(&U), &CLOSE, &ends, DiagonalRule::NoObstacles, 2.0);
+        let expected = [
+            "...........",
+            "+++xxxxx+++",
+            "+#+xxxxx+#+",
+            "+#+xxxxx+#+",
+            "+#+xxxxx+#+",
+            "+#+++++++#+",
+            "+#########+",
+            "+++++++++++",
+        ];
+        assert_eq!(drawn(&layers), expected);
+        assert_eq!(layers.n_pockets(PocketFate::Closed), 1);
+        assert_eq!(layers.pockets[0].first, Cell::new(3, 3));
+        assert_eq!(
+            (layers.pockets[0].n_cells, layers.pockets[0].n_closed),
+            (20, 20)
+        );
+        let kept = LayersConfig::default();
+        let layers = Layers::new(&lethal(&U), &kept, &ends, DiagonalRule::NoObstacles, 2.0);
+        assert_eq!(drawn(&layers), U);
+    }
+
+    #[test]
+    fn a_start_that_expansion_covers_keeps_its_pocket_open() {
+        let start = Cell::new(2, 4);
+        let ends = [start, Cell::new(0, 7)];
+        let layers = Layers::new(&lethal(&U), &CLOSE, &ends, DiagonalRule::NoObstacles, 2.0);
+        assert_eq!(layers.n_pockets(PocketFate::HoldsEnd), 1);
+        assert_eq!(layers.closed.count(), 0);
+        assert!(layers.expanded.get(2, 4), "nothing is carved out");
+        assert_eq!(layers.nearest_open(start, 1), Some(Cell::new(3, 4)));
+        assert_eq!(layers.nearest_open(start, 0), None);
+        assert_eq!(
+            layers.nearest_open(Cell::new(5, 5), 0),
+            Some(Cell::new(5, 5))
+        );
+        assert_eq!(
+            layers.nearest_open(Cell::new(11, 0), 9),
+            None,
+            "off the map"
+        );
+    }
+
+    proptest! {
+        #[test]
+        fn the_nearest_open_cell_is_that_of_a_full_search(
+            n_cols in 1_usize..16,
+            bits in prop::collection::vec(prop::bool::weighted(0.93), 16..160),
+            at in any::<prop::sample::Index>(),
+            max_radius_cells in 0_u32..14,
+        ) {
+            let mut obstacles = BitGrid::new(n_cols, bits.len() / n_cols);
+            let cells = (0..bits.len() / n_cols * n_cols).map(|i| Cell::new((i % n_cols) as u32, (i / n_cols) as u32));
+            let cells: Vec<Cell> = cells.collect();
+            obstacles.extend(cells.iter().zip(&bits).filter(|(_, is_set)| **is_set).map(|(cell, _)| *cell));
+            let layers = Layers::new(&obstacles, &LayersConfig::default(), &[], DiagonalRule::Always, 0.0);
+            let from = cells[at.index(cells.len())];
+            let open = obstacles.complement();
+            let within = |c: &Cell| squared_distance(from, *c) <= u64::from(max_radius_cells).pow(2);
+            let expected = open.iter().filter(within).min_by_key(|&c| squared_distance(from, c));
+            prop_assert_eq!(layers.nearest_open(from, max_radius_cells), expected);
+        }
+    }
 }

@@ -256,15 +256,15 @@ mod tests {
         ) {
             let place = |(col, row): &(prop::sample::Index, u32)| Cell::new(col.index(n_cols) as u32, *row);
             let mut before = BitGrid::new(n_cols, 7);
-            cells[..30].iter().for_each(|cell| before.insert(place(cell)));
+            before.extend(cells[..30].iter().map(place));
             let [a, b] = corners.map(|(col, row)| (col.index(n_cols), row));
             let (cols, rows) = (a.0.min(b.0)..a.0.max(b.0) + 1, a.1.min(b.1)..a.1.max(b.1) + 1);
             let within = |c: &Cell| cols.contains(&(c.col as usize)) && rows.contains(&(c.row as usize));
             for rule in RULES {
                 let mut moves = MoveMasks::new(&before, rule);
                 moves.change(cols.clone(), rows.clone(), |blocked| {
-                    cells[..30].iter().map(place).filter(within).for_each(|c| blocked.remove(c));
-                    cells[30..].iter().map(place).filter(within).for_each(|c| blocked.insert(c));
+                    blocked.remove_all(cells[..30].iter().map(place).filter(within));
+                    blocked.extend(cells[30..].iter().map(place).filter(within));
                 });
                 let expected = MoveMasks::new(&moves.blocked, rule);
                 prop_assert_eq!(moves, expected);
