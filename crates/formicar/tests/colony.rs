@@ -326,9 +326,12 @@ fn no_way_and_no_room_are_told() {
     assert!(matches!(error, Err(RunError::Search(_))));
 }
 
+/// Takes a parameter out of its range.
+type Spoil = fn(&mut ColonyConfig);
+
 #[test]
 fn bad_parameters_are_refused_with_their_range() {
-    let bad: [(&str, fn(&mut ColonyConfig)); 6] = [
+    let bad: [(&str, Spoil); 6] = [
         ("n_ants = 0; it must be in 1", |c| c.n_ants = 0),
         ("n_iterations = 0", |c| c.n_iterations = 0),
         ("alpha = -1", |c| c.alpha = -1.0),

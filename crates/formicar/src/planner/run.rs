@@ -26,7 +26,7 @@ pub(super) struct Ended {
     pub(super) status: Status,
     /// Why, where the status does not say it all.
     pub(super) reason: Option<String>,
-    pub(super) stages: Stages,
+    pub(super) stages: Box<Stages>,
 }
 
 impl Ended {
@@ -34,7 +34,7 @@ impl Ended {
         Self {
             status,
             reason: None,
-            stages,
+            stages: Box::new(stages),
         }
     }
 
@@ -169,7 +169,7 @@ impl Planner {
                     status: ended.status,
                     reason: ended.reason.unwrap_or_else(explained),
                     refused: None,
-                    stages: ended.stages,
+                    stages: *ended.stages,
                     n_steps,
                 }));
             }
