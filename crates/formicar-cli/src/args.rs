@@ -1,6 +1,6 @@
 //! Commands and flags.
 
-use crate::commands::{BenchArgs, MapArgs};
+use crate::commands::{BenchArgs, MapArgs, ReproduceArgs};
 use crate::values;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use formicar::geometry::{Point2, Pose2};
@@ -31,6 +31,8 @@ pub(crate) enum Command {
     Check(CheckArgs),
     /// Run planners on scenarios, one process per run: a table of results and a summary.
     Bench(Box<BenchArgs>),
+    /// Repeat the experiments of a paper: tables beside its own.
+    Reproduce(ReproduceArgs),
     /// Describe, convert and generate maps; measure the way between two places.
     Map(MapArgs),
     /// List planners, built-in vehicles and maps, or the scenarios of a file.

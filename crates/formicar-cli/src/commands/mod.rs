@@ -4,13 +4,16 @@ mod bench;
 mod check;
 mod demo;
 mod list;
+mod machine;
 mod map;
 mod meta;
 mod plan;
+mod reproduce;
 mod stdin;
 
 pub(crate) use bench::BenchArgs;
 pub(crate) use map::MapArgs;
+pub(crate) use reproduce::ReproduceArgs;
 
 use crate::args::Command;
 use crate::failure::{Ending, Failure};
@@ -24,6 +27,7 @@ pub(crate) fn run(command: &Command, out: &mut impl Write) -> Result<Ending, Fai
         Command::Check(args) => check::run(args, out),
         Command::Bench(args) => bench::run(args, out),
         Command::BenchRun { job } => bench::run_one(job, out),
+        Command::Reproduce(args) => reproduce::run(args, out),
         Command::Map(args) => map::run(args, out),
         Command::List(args) => list::run(args, out),
         Command::Schema(args) => meta::schema(args, out),

@@ -1,7 +1,7 @@
 //! Flags of `bench`.
 #![allow(clippy::doc_markdown, reason = "clap prints these words as they stand")]
 
-use super::machine;
+use crate::commands::machine;
 use crate::values;
 use clap::{Args, ValueHint};
 use formicar::planner::PlannerName;

@@ -4,7 +4,6 @@ mod args;
 mod child;
 mod execute;
 mod job;
-mod machine;
 mod results;
 mod row;
 mod suite;
@@ -14,6 +13,7 @@ mod usage;
 pub(crate) use args::BenchArgs;
 pub(crate) use child::run_one;
 
+use super::machine;
 use crate::failure::{Ending, Failure};
 use crate::settings;
 use anyhow::{Context, Result};

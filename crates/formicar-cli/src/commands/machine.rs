@@ -5,7 +5,7 @@ use std::fs;
 use std::thread::available_parallelism;
 
 /// The machine, the program and the command, as Markdown; what is unknown is left out.
-pub(super) fn description() -> String {
+pub(crate) fn description() -> String {
     let read = |path: &str| fs::read_to_string(path).unwrap_or_default();
     let facts = [
         ("Processor", processor()),
@@ -27,7 +27,7 @@ pub(super) fn description() -> String {
 }
 
 /// The processor's name.
-pub(super) fn processor() -> Option<String> {
+pub(crate) fn processor() -> Option<String> {
     let cpuinfo = fs::read_to_string("/proc/cpuinfo").ok()?;
     value(&cpuinfo, "model name", ':')
 }

@@ -1,0 +1,138 @@
+//! What an experiment is made of.
+
+use crate::trial::Trial;
+use anyhow::{Context, Result};
+use formicar::map::OccupancyGrid;
+use formicar::map::builtin::BuiltinMap;
+use formicar::planner::{PlannerConfig, PlannerName};
+use formicar::scenario::{GoalHeading, Request, StartHeading};
+use formicar::vehicle::Vehicle;
+
+/// How much is run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Scale {
+    /// Runs of each variant on each map, with the seeds 0 to `n_seeds` - 1.
+    pub n_seeds: u64,
+    /// Repetitions of each timing.
+    pub n_timings: usize,
+}
+
+impl Scale {
+    /// As published.
+    pub const FULL: Self = Self {
+        n_seeds: 31,
+        n_timings: 11,
+    };
+    /// Enough to see that it works.
+    pub const QUICK: Self = Self {
+        n_seeds: 3,
+        n_timings: 3,
+    };
+}
+
+/// A configuration with a name.
+#[derive(Clone, Debug)]
+pub struct Variant {
+    /// Its name in tables.
+    pub name: String,
+    /// The configuration.
+    pub config: PlannerConfig,
+}
+
+impl Variant {
+    /// A planner as it is.
+    pub(crate) fn of(planner: PlannerName) -> Self {
+        Self {
+            name: planner.name().to_owned(),
+            config: PlannerConfig::of(planner),
+        }
+    }
+
+    /// A planner with something changed.
+    pub(crate) fn changed(
+        planner: PlannerName,
+        what: &str,
+        change: impl FnOnce(&mut PlannerConfig),
+    ) -> Self {
+        let mut config = PlannerConfig::of(planner);
+        change(&mut config);
+        Self {
+            name: format!("{}, {what}", planner.name()),
+            config,
+        }
+    }
+}
+
+/// A map, a vehicle and a request with free headings, as the papers ask.
+#[derive(Clone, Debug)]
+pub struct Ground {
+    /// Name of the built-in map.
+    pub map: &'static str,
+    /// The map itself.
+    pub grid: OccupancyGrid,
+    /// Who drives.
+    pub vehicle: Vehicle,
+    /// From where to where.
+    pub request: Request,
+}
+
+impl Ground {
+    /// A built-in map with its first request and its own vehicle.
+    pub(crate) fn builtin(map: &'static str) -> Result<Self> {
+        let builtin = BuiltinMap::by_name(map)?;
+        let ends = &builtin.requests[0];
+        Ok(Self {
+            map,
+            grid: builtin.grid(),
+            vehicle: Vehicle::preset(builtin.vehicle)
+                .with_context(|| format!("vehicle {} of {map}", builtin.vehicle))?,
+            request: Request {
+                start_heading: StartHeading::Any,
+                goal_heading: GoalHeading::Any,
+                ..Request::new(ends.start, ends.goal)
+            },
+        })
+    }
+}
+
+/// All rows of an experiment, and what they come to.
+#[derive(Clone, Debug)]
+pub struct Reproduction {
+    /// Every run.
+    pub trials: Vec<Trial>,
+    /// Tables, in Markdown.
+    pub summary: String,
+}
+
+impl Reproduction {
+    /// The rows as CSV.
+    ///
+    /// # Errors
+    /// None that is expected: rows are plain numbers and words.
+    pub fn csv(&self) -> Result<String> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        for trial in &self.trials {
+            writer.serialize(trial)?;
+        }
+        Ok(String::from_utf8(writer.into_inner()?)?)
+    }
+}
+
+/// Runs every variant on every ground with every seed, and tells before each variant.
+pub(crate) fn run_all(
+    grounds: &[Ground],
+    variants: impl Fn(&Ground) -> Vec<Variant>,
+    scale: Scale,
+    tell: &mut dyn FnMut(&str),
+) -> Result<Vec<Trial>> {
+    let mut trials = Vec::new();
+    for ground in grounds {
+        for variant in variants(ground) {
+            tell(&format!("{}: {}", ground.map, variant.name));
+            for seed in 0..scale.n_seeds {
+                trials.push(Trial::run(ground, &variant, seed)?);
+            }
+        }
+    }
+    Ok(trials)
+}

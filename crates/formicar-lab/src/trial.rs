@@ -1,0 +1,179 @@
+//! One run of a colony, from the map to the judge.
+
+use crate::experiment::{Ground, Variant};
+use anyhow::Result;
+use formicar::colony::History;
+use formicar::map::{BitGrid, Cell, MoveMasks};
+use formicar::numeric::Seed;
+use formicar::path::GridPath;
+use formicar::planner::{Outcome, Planner, Stages};
+use formicar::progress::Limits;
+use formicar::search::GoalField;
+use serde::Serialize;
+use std::f64::consts::SQRT_2;
+use std::time::Instant;
+
+/// What a run came to; lengths of the ants' way are in cells, a diagonal step counting sqrt(2).
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Trial {
+    /// The map.
+    pub map: String,
+    /// The configuration.
+    pub variant: String,
+    /// The seed.
+    pub seed: u64,
+    /// Whether an ant reached the goal.
+    pub arrived: bool,
+    /// Whether the judge certified the smoothed path.
+    pub certified: bool,
+    /// Length of the ants' best way.
+    pub length_cells: Option<f64>,
+    /// Length of the shortest way under the same layers and moves.
+    pub optimum_cells: Option<f64>,
+    /// Changes of direction on the ants' best way.
+    pub n_turns: Option<usize>,
+    /// Its cells.
+    pub n_nodes_before: Option<usize>,
+    /// Nodes that are left of them.
+    pub n_nodes_after: Option<usize>,
+    /// Diagonal steps of it between two obstacles that meet at a corner.
+    pub n_squeezes: Option<usize>,
+    /// Iterations until the best way was found.
+    pub n_to_best: Option<u32>,
+    /// Iterations until a way at most 1 % dearer was found.
+    pub n_to_1_percent: Option<u32>,
+    /// Iterations in all.
+    pub n_iterations: usize,
+    /// Share of all ants that arrived.
+    pub arrived_share: f64,
+    /// Length of the certified path, metres.
+    pub length_m: Option<f64>,
+    /// Its least clearance, metres.
+    pub min_clearance_m: Option<f64>,
+    /// The query in all: layers, colony, smoothing, judge; milliseconds.
+    pub query_ms: f64,
+}
+
+impl Trial {
+    /// Runs a variant on a ground.
+    pub(crate) fn run(ground: &Ground, variant: &Variant, seed: u64) -> Result<Self> {
+        let config = variant.config.clone();
+        let mut planner = Planner::new(&ground.grid, ground.vehicle.clone(), config)?;
+        let begun = Instant::now();
+        let outcome = planner.plan(&ground.request, Seed(seed), &mut ())?;
+        let query_ms = begun.elapsed().as_secs_f64() * 1e3;
+        let stages = match &outcome {
+            Outcome::Found(plan) => &plan.stages,
+            Outcome::NotFound(failure) => &failure.stages,
+        };
+        // Where obstacle expansion covers an end no colony sets out.
+        let nothing = History::default();
+        let history = stages.colony.as_ref().map_or(&nothing, |run| &run.history);
+        let path = stages.grid_path.as_ref();
+        let plan = match &outcome {
+            Outcome::Found(plan) => Some(plan),
+            Outcome::NotFound(_) => None,
+        };
+        let obstacles = ground.grid.lethal_cells();
+        Ok(Self {
+            map: ground.map.to_owned(),
+            variant: variant.name.clone(),
+            seed,
+            arrived: path.is_some(),
+            certified: plan.is_some(),
+            length_cells: path.map(length_cells),
+            optimum_cells: path.and_then(|path| optimum_cells(variant, stages, path)),
+            n_turns: path.map(n_turns),
+            n_nodes_before: path.map(|path| path.cells.len()),
+            n_nodes_after: path.map(|_| stages.nodes.len()),
+            n_squeezes: path.map(|path| n_squeezes(&obstacles, path)),
+            n_to_best: history.converged_after(),
+            n_to_1_percent: n_to_1_percent(history),
+            n_iterations: history.iterations.len(),
+            arrived_share: arrived_share(history),
+            length_m: plan.map(|plan| plan.metrics.length_m),
+            min_clearance_m: plan.map(|plan| plan.certificate.min_clearance_m),
+            query_ms,
+        })
+    }
+}
+
+fn steps(path: &GridPath) -> impl Iterator<Item = (i64, i64)> + '_ {
+    path.cells.windows(2).map(|pair| {
+        let difference = |a: u32, b: u32| i64::from(b) - i64::from(a);
+        (
+            difference(pair[0].col, pair[1].col),
+            difference(pair[0].row, pair[1].row),
+        )
+    })
+}
+
+fn length_cells(path: &GridPath) -> f64 {
+    steps(path)
+        .map(|(dx, dy)| if dx != 0 && dy != 0 { SQRT_2 } else { 1.0 })
+        .sum()
+}
+
+fn n_turns(path: &GridPath) -> usize {
+    let following = steps(path).skip(1);
+    steps(path).zip(following).filter(|(a, b)| a != b).count()
+}
+
+/// Diagonal steps between two obstacles.
+fn n_squeezes(obstacles: &BitGrid, path: &GridPath) -> usize {
+    let is_obstacle = |col: u32, row: u32| obstacles.get(col as usize, row as usize);
+    let squeezes = |pair: &&[Cell]| {
+        let (a, b) = (pair[0], pair[1]);
+        let is_diagonal = a.col != b.col && a.row != b.row;
+        is_diagonal && is_obstacle(a.col, b.row) && is_obstacle(b.col, a.row)
+    };
+    path.cells.windows(2).filter(squeezes).count()
+}
+
+/// The shortest way between the ends of a path under the layers and the moves of its colony.
+fn optimum_cells(variant: &Variant, stages: &Stages, path: &GridPath) -> Option<f64> {
+    let (start, goal) = (path.cells.first()?, path.cells.last()?);
+    let blocked = &stages.layers.as_ref()?.blocked;
+    let moves = MoveMasks::new(blocked, variant.config.colony.diagonal_rule);
+    let mut nobody = ();
+    let field = GoalField::new(&moves, &[*goal], &mut Limits::new(&mut nobody, None, None));
+    field.ok()?.distance_cells(*start)
+}
+
+fn n_to_1_percent(history: &History) -> Option<u32> {
+    let best = history.iterations.last()?.best_so_far_cost?;
+    let is_near = |cost: Option<f64>| cost.is_some_and(|cost| cost <= 1.01 * best);
+    let first = history
+        .iterations
+        .iter()
+        .find(|record| is_near(record.best_so_far_cost))?;
+    Some(first.iteration + 1)
+}
+
+fn arrived_share(history: &History) -> f64 {
+    let sum = |of: fn(&formicar::progress::IterationRecord) -> u32| {
+        let values = history.iterations.iter().map(of).map(f64::from);
+        values.sum::<f64>()
+    };
+    sum(|record| record.n_arrived) / sum(|record| record.n_ants).max(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_are_measured() {
+        let cells = [(0, 0), (1, 1), (2, 2), (3, 2)];
+        let path = GridPath {
+            cells: cells.map(|(col, row)| Cell::new(col, row)).to_vec(),
+        };
+        assert!((length_cells(&path) - 1.0 - 2.0 * SQRT_2).abs() < 1e-12);
+        assert_eq!(n_turns(&path), 1);
+        let mut obstacles = BitGrid::new(4, 4);
+        obstacles.insert(Cell::new(1, 0));
+        assert_eq!(n_squeezes(&obstacles, &path), 0);
+        obstacles.insert(Cell::new(0, 1));
+        assert_eq!(n_squeezes(&obstacles, &path), 1);
+    }
+}
