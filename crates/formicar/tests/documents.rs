@@ -5,6 +5,7 @@
     reason = "a test suite: helpers outside of tests may fail and say that they skip"
 )]
 
+use formicar::layers::{LayersConfig, MAX_EXPANSION_CELLS};
 use formicar::planner::HybridAstarConfig;
 use schemars::schema_for;
 use std::fs;
@@ -86,6 +87,21 @@ fn the_table_of_hybrid_astar_has_every_parameter() {
     }
     let n_rows = page.lines().filter(|l| l.starts_with("| `")).count();
     assert_eq!(n_rows, defaults.len(), "rows without a parameter");
+}
+
+#[test]
+fn the_table_of_layers_has_every_parameter() {
+    let Some(root) = project() else { return };
+    let page = fs::read_to_string(root.join("docs/src/layers.md")).unwrap();
+    let defaults = serde_json::to_value(LayersConfig::default()).unwrap();
+    let defaults = defaults.as_object().unwrap();
+    for (key, default) in defaults {
+        let row = format!("| `{key}` | `{}` |", default.as_str().unwrap());
+        assert!(page.contains(&row), "no row {row}");
+    }
+    let n_rows = page.lines().filter(|l| l.starts_with("| `")).count();
+    assert_eq!(n_rows, defaults.len(), "rows without a parameter");
+    assert!(page.contains(&format!("n in 0 to {MAX_EXPANSION_CELLS}")));
 }
 
 #[test]
