@@ -3,106 +3,14 @@
 //! Dijkstra's algorithm over places and facings. A piece goes on the list with its cost and is
 //! checked for collisions only when it comes up: most never do.
 
+use super::Corners;
+use super::open_list::{Entry, OpenList, Step};
 use super::roadmap::{Facing, Roadmap, Role};
-use super::{Corners, SmoothingConfig};
-use crate::collision::{Body, Drive, ObstacleMap};
-use crate::geometry::{Arc, Curve, Point2, Pose2, dubins, reeds_shepp};
-use crate::scenario::MotionMode;
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
+use super::task::Task;
+use crate::geometry::{Arc, Curve, Point2, Pose2};
 
 /// How many curves are tried between two poses, cheapest first.
 const MAX_WORDS: usize = 6;
-
-/// The poses that the ends of a path are held to; none where the heading is free.
-#[derive(Clone, Debug)]
-pub(super) struct Ends {
-    pub(super) starts: Vec<Pose2>,
-    pub(super) goals: Vec<Pose2>,
-}
-
-/// What a chain is made for.
-#[derive(Clone, Copy)]
-pub(super) struct Task<'a> {
-    pub(super) obstacles: &'a ObstacleMap,
-    pub(super) body: &'a Body,
-    pub(super) radius_m: f64,
-    pub(super) config: &'a SmoothingConfig,
-    pub(super) motion: MotionMode,
-    pub(super) ends: &'a Ends,
-}
-
-impl Task<'_> {
-    pub(super) fn reach_m(&self) -> f64 {
-        self.config.reach_radii * self.radius_m
-    }
-
-    pub(super) fn is_free(&self, start: Pose2, arc: Arc) -> bool {
-        let drive = Drive {
-            start,
-            curvature_per_m: arc.curvature_per_m,
-            signed_length_m: arc.signed_length_m,
-        };
-        self.obstacles.is_free(self.body, &drive)
-    }
-
-    pub(super) fn all_free(&self, start: Pose2, arcs: &[Arc]) -> bool {
-        let mut pose = start;
-        arcs.iter().all(|&arc| {
-            let from = pose;
-            pose = arc.end_from(pose);
-            self.is_free(from, arc)
-        })
-    }
-
-    /// Facings in which the polyline may be followed.
-    pub(super) fn facings(&self) -> &'static [Facing] {
-        match self.motion {
-            MotionMode::Forward => &[Facing::Along],
-            MotionMode::Reverse => &[Facing::Along, Facing::Against],
-        }
-    }
-
-    fn words(&self, from: Pose2, to: Pose2) -> Vec<Curve> {
-        match self.motion {
-            MotionMode::Forward => dubins::candidates(from, to, self.radius_m),
-            MotionMode::Reverse => reeds_shepp::candidates(from, to, self.radius_m),
-        }
-    }
-
-    /// Cost of driving a length along the polyline.
-    fn gear_factor(&self, facing: Facing) -> f64 {
-        match facing {
-            Facing::Along => 1.0,
-            Facing::Against => self.config.reverse_penalty,
-        }
-    }
-
-    /// Cost of a curve between two gears; 0 stands for none.
-    fn word_cost(&self, curve: &Curve, before: f64, after: f64) -> f64 {
-        let mut gear = before;
-        let mut cost = 0.0;
-        for arc in curve.arcs() {
-            let factor = if arc.signed_length_m < 0.0 {
-                self.config.reverse_penalty
-            } else {
-                1.0
-            };
-            let next = arc.signed_length_m.signum();
-            cost += factor * arc.length_m() + self.switching_cost(gear, next);
-            gear = next;
-        }
-        cost + self.switching_cost(gear, after)
-    }
-
-    fn switching_cost(&self, before: f64, after: f64) -> f64 {
-        if before * after < 0.0 {
-            self.config.direction_switching_cost
-        } else {
-            0.0
-        }
-    }
-}
 
 /// A piece of a chain: arcs from a pose, and the 2-turning that they are, if so.
 #[derive(Clone, Debug)]
@@ -112,11 +20,11 @@ pub(super) struct Piece {
     pub(super) member: Option<usize>,
 }
 
-/// Where a chain got to, if not to the goal.
-#[derive(Clone, Copy, Debug)]
+/// How far the chains got of which none reached the goal.
+#[derive(Clone, Debug)]
 pub(super) struct Stuck {
-    /// The farthest place reached, if any.
-    pub(super) reached: Option<usize>,
+    /// The places reached, in order along the polyline.
+    pub(super) reached: Vec<(usize, Facing)>,
 }
 
 /// The cheapest chain from start to goal.
@@ -138,67 +46,21 @@ pub(super) fn cheapest(task: &Task, map: &Roadmap) -> Result<Vec<Piece>, Stuck> 
             search.open_from(entry.to);
         }
     }
-    let reached = (0..map.places.len()).rev().find(|&place| {
-        let nodes = [2 * place, 2 * place + 1];
-        nodes.iter().any(|&node| search.came_by[node].is_some())
-    });
-    Err(Stuck { reached })
-}
-
-/// A way from one node to another.
-#[derive(Clone, Copy, Debug)]
-enum Step {
-    /// To the next place of the leg.
-    Straight,
-    /// By a 2-turning.
-    Turning(usize),
-    /// By some curve, with a lower bound of its cost.
-    AnyWord,
-    /// By a curve of the list.
-    Word(usize),
-    /// The start or goal with a free heading: nothing to drive.
-    Here,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Entry {
-    cost: f64,
-    age: usize,
-    from: usize,
-    to: usize,
-    step: Step,
-}
-
-impl PartialEq for Entry {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Entry {}
-
-impl PartialOrd for Entry {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Entry {
-    /// The cheapest is the greatest; among equals the oldest.
-    fn cmp(&self, other: &Self) -> Ordering {
-        let by_cost = other.cost.total_cmp(&self.cost);
-        by_cost.then(other.age.cmp(&self.age))
-    }
+    let nodes = (0..search.start()).filter(|&node| search.came_by[node].is_some());
+    Err(Stuck {
+        reached: nodes.map(Search::place).collect(),
+    })
 }
 
 /// Nodes are places with facings, twice the place plus 0 or 1; then the start and the goal.
 struct Search<'a> {
     task: &'a Task<'a>,
     map: &'a Roadmap,
+    /// How each node was reached first, and at what cost.
     came_by: Vec<Option<(usize, Step)>>,
     costs: Vec<f64>,
-    open: BinaryHeap<Entry>,
-    n_opened: usize,
+    open: OpenList,
+    /// Curves with the poses from which they are driven.
     words: Vec<(Pose2, Curve)>,
     /// Per leg and facing, whether the body can drive from each place to the next.
     straights: Vec<Option<Vec<bool>>>,
@@ -206,13 +68,13 @@ struct Search<'a> {
 
 impl<'a> Search<'a> {
     fn new(task: &'a Task<'a>, map: &'a Roadmap) -> Self {
+        let n_nodes = 2 * map.places.len() + 2;
         Self {
             task,
             map,
-            came_by: vec![None; 2 * map.places.len() + 2],
-            costs: vec![0.0; 2 * map.places.len() + 2],
-            open: BinaryHeap::new(),
-            n_opened: 0,
+            came_by: vec![None; n_nodes],
+            costs: vec![0.0; n_nodes],
+            open: OpenList::default(),
             words: Vec::new(),
             straights: vec![None; 2 * map.legs.len()],
         }
@@ -239,69 +101,54 @@ impl<'a> Search<'a> {
         2 * place + usize::from(facing == Facing::Against)
     }
 
-    fn push(&mut self, cost: f64, [from, to]: [usize; 2], step: Step) {
-        self.n_opened += 1;
-        self.open.push(Entry {
-            cost,
-            age: self.n_opened,
-            from,
-            to,
-            step,
-        });
-    }
-
+    /// Opens the pieces that begin at the start.
     fn open_start(&mut self) {
         let (start, goal) = (self.start(), self.goal());
-        let reach_m = self.task.reach_m();
-        let ends = self.task.ends;
+        let (map, ends, reach_m) = (self.map, self.task.ends, self.task.reach_m());
         for &facing in self.task.facings() {
-            if ends.starts.is_empty() && !self.map.places.is_empty() {
-                self.push(0.0, [start, Self::node(0, facing)], Step::Here);
+            if ends.start_is_free && !map.places.is_empty() {
+                let first = Self::node(0, facing);
+                self.open.push(0.0, [start, first], Step::Here);
             }
-            for place in 0..self.map.places.len() {
-                let near = self.map.s_m(place) <= reach_m;
-                if !ends.starts.is_empty() && near && self.map.is_station(place) {
-                    self.push_word([start, Self::node(place, facing)]);
-                }
+            let near = (0..map.places.len()).take_while(|&place| map.s_m(place) <= reach_m);
+            for place in near.filter(|&place| map.is_station(place)) {
+                self.open_word([start, Self::node(place, facing)]);
             }
         }
-        let is_short = self.map.line.length_m() <= reach_m;
-        if is_short && !ends.starts.is_empty() && !ends.goals.is_empty() {
-            self.push_word([start, goal]);
+        if map.line.length_m() <= reach_m {
+            self.open_word([start, goal]);
         }
     }
 
-    /// Opens every piece that begins at a node.
+    /// Opens the pieces that begin at a place.
     fn open_from(&mut self, node: usize) {
-        let cost = self.costs[node];
         let (place, facing) = Self::place(node);
-        let (map, factor) = (self.map, self.task.gear_factor(facing));
+        let (map, cost) = (self.map, self.costs[node]);
+        let factor = self.task.gear_factor(facing.sign());
         let here = map.places[place];
         if place + 1 < map.legs[here.leg].end {
-            let length_m = map.places[place + 1].at_m - here.at_m;
+            let cost = cost + factor * (map.places[place + 1].at_m - here.at_m);
             let next = Self::node(place + 1, facing);
-            self.push(cost + factor * length_m, [node, next], Step::Straight);
-        } else if here.leg + 1 == map.legs.len() && self.task.ends.goals.is_empty() {
-            self.push(cost, [node, self.goal()], Step::Here);
+            self.open.push(cost, [node, next], Step::Straight);
+        } else if here.leg + 1 == map.legs.len() && self.task.ends.goal_is_free {
+            self.open.push(cost, [node, self.goal()], Step::Here);
         }
         match here.role {
             Role::TurnBegins(member) => {
-                // What it replaces, so that among members the deviation alone decides.
+                // Not its own length but that of what it replaces: the deviation alone decides
+                // among members.
                 let turning = &map.members[member].turning;
-                let length_m = turning.before_m + turning.after_m + turning.deviation_m();
+                let length_m = turning.before_m + turning.after_m;
+                let cost = cost + factor * (length_m + turning.deviation_m());
                 let next = Self::node(map.members[member].places[1], facing);
-                self.push(
-                    cost + factor * length_m,
-                    [node, next],
-                    Step::Turning(member),
-                );
+                self.open.push(cost, [node, next], Step::Turning(member));
             }
             Role::Station => self.open_words(node),
             Role::TurnEnds(_) => {}
         }
     }
 
-    /// Opens the curves from a station to later ones and to the goal.
+    /// Opens the curves from a station to those on later legs and to the goal.
     fn open_words(&mut self, node: usize) {
         let (place, _) = Self::place(node);
         let map = self.map;
@@ -311,35 +158,42 @@ impl<'a> Search<'a> {
             let later = (next_leg..map.places.len()).take_while(|&to| map.s_m(to) <= end_m);
             for to in later.filter(|&to| map.is_station(to)) {
                 for &facing in self.task.facings() {
-                    self.push_word([node, Self::node(to, facing)]);
+                    self.open_word([node, Self::node(to, facing)]);
                 }
             }
         }
-        if !self.task.ends.goals.is_empty() && map.line.length_m() <= end_m {
-            self.push_word([node, self.goal()]);
+        if map.line.length_m() <= end_m {
+            self.open_word([node, self.goal()]);
         }
     }
 
     /// Opens the curves between two nodes at a lower bound of their cost.
-    fn push_word(&mut self, nodes: [usize; 2]) {
-        if self.came_by[nodes[1]].is_some() {
-            return;
+    fn open_word(&mut self, nodes: [usize; 2]) {
+        if self.came_by[nodes[1]].is_none() {
+            let [from, to] = nodes.map(|node| self.position(node));
+            let least = from.distance(to) + self.passing_cost(nodes);
+            let cost = self.costs[nodes[0]] + least;
+            self.open.push(cost, nodes, Step::AnyWord);
         }
-        let [from, to] = nodes.map(|node| self.position(node));
-        let least = from.distance(to) + self.passing_cost(nodes);
-        self.push(self.costs[nodes[0]] + least, nodes, Step::AnyWord);
     }
 
-    /// Cost of the corners that a curve passes.
+    /// Cost of the corners that a curve passes; to begin or end with a curve where the polyline's
+    /// own heading would do costs as much.
     fn passing_cost(&self, [from, to]: [usize; 2]) -> f64 {
-        let leg = |node: usize| self.map.places[Self::place(node).0].leg;
-        let first = if from == self.start() { 0 } else { leg(from) };
-        let last = if to == self.goal() {
-            self.map.line.n_corners()
+        let leg = |node: usize| self.map.places[node / 2].leg;
+        let ends = self.task.ends;
+        let (first, begins) = if from == self.start() {
+            (0, usize::from(ends.start_is_free))
         } else {
-            leg(to)
+            (leg(from), 0)
         };
-        (last - first) as f64 * self.task.config.passed_corner_radii * self.task.radius_m
+        let (last, finishes) = if to == self.goal() {
+            (self.map.line.n_corners(), usize::from(ends.goal_is_free))
+        } else {
+            (leg(to), 0)
+        };
+        let n_passed = last - first + begins + finishes;
+        n_passed as f64 * self.task.config.passed_corner_radii * self.task.radius_m
     }
 
     /// The poses that a node stands for.
@@ -380,25 +234,21 @@ impl<'a> Search<'a> {
         let [from, to] = nodes.map(|node| self.poses(node));
         let mut words = Vec::new();
         for (&a, &b) in from.iter().flat_map(|a| to.iter().map(move |b| (a, b))) {
-            words.extend(self.task.words(a, b).into_iter().map(|curve| {
-                let cost = self.task.word_cost(&curve, gears[0], gears[1]);
-                (cost, a, curve)
-            }));
+            let curves = self.task.words(a, b).into_iter();
+            words.extend(curves.map(|curve| (self.task.word_cost(&curve, gears), a, curve)));
         }
         words.sort_by(|a, b| a.0.total_cmp(&b.0));
         let before = self.costs[entry.from] + self.passing_cost(nodes);
         for (cost, start, curve) in words.into_iter().take(MAX_WORDS) {
-            self.push(before + cost, nodes, Step::Word(self.words.len()));
+            let word = Step::Word(self.words.len());
+            self.open.push(before + cost, nodes, word);
             self.words.push((start, curve));
         }
     }
 
     fn is_free(&mut self, entry: &Entry) -> bool {
         match entry.step {
-            Step::Straight => {
-                let (place, facing) = Self::place(entry.from);
-                self.is_straight_free(place, facing)
-            }
+            Step::Straight => self.is_straight_free(entry.from),
             Step::Turning(_) | Step::Word(_) => {
                 let (start, arcs) = self.motion(entry.from, entry.step);
                 self.task.all_free(start, &arcs)
@@ -408,12 +258,13 @@ impl<'a> Search<'a> {
         }
     }
 
-    fn is_straight_free(&mut self, place: usize, facing: Facing) -> bool {
-        let leg = self.map.places[place].leg;
-        let range = self.map.legs[leg].clone();
-        let slot = Self::node(leg, facing);
+    /// Whether the body can drive straight on to the next place.
+    fn is_straight_free(&mut self, node: usize) -> bool {
+        let (place, facing) = Self::place(node);
         let (task, map) = (self.task, self.map);
-        let free = self.straights[slot].get_or_insert_with(|| {
+        let leg = map.places[place].leg;
+        let range = map.legs[leg].clone();
+        let free = self.straights[Self::node(leg, facing)].get_or_insert_with(|| {
             let mut free = vec![false; range.len() - 1];
             mark_free(task, (map, facing), range.start, &mut free);
             free
@@ -428,21 +279,16 @@ impl<'a> Search<'a> {
             return (*start, curve.arcs().to_vec());
         }
         let (place, facing) = Self::place(from);
-        let sign = facing.sign();
-        let start = self.map.pose(place, facing);
-        let seen = |arc: Arc| Arc::new(sign * arc.curvature_per_m, sign * arc.signed_length_m);
         let arcs = match step {
-            Step::Turning(member) => self.map.members[member].turning.arcs().map(seen).to_vec(),
+            Step::Turning(member) => self.map.members[member].turning.arcs().to_vec(),
             Step::Straight => {
-                let places = &self.map.places;
-                vec![seen(Arc::new(
-                    0.0,
-                    places[place + 1].at_m - places[place].at_m,
-                ))]
+                let [here, next] = [place, place + 1].map(|place| self.map.places[place].at_m);
+                vec![Arc::new(0.0, next - here)]
             }
             Step::Here | Step::AnyWord | Step::Word(_) => Vec::new(),
         };
-        (start, arcs)
+        let arcs = arcs.into_iter().map(|arc| facing.seen(arc)).collect();
+        (self.map.pose(place, facing), arcs)
     }
 
     /// The pieces from start to goal.
@@ -469,10 +315,10 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Marks the steps from place to place that are free: the whole as one sweep or else its halves.
+/// Marks the steps from place to place that are free: all by one sweep, or else their halves.
 fn mark_free(task: &Task, (map, facing): (&Roadmap, Facing), first: usize, free: &mut [bool]) {
     let length_m = map.places[first + free.len()].at_m - map.places[first].at_m;
-    let arc = Arc::new(0.0, facing.sign() * length_m);
+    let arc = facing.seen(Arc::new(0.0, length_m));
     if task.is_free(map.pose(first, facing), arc) {
         free.fill(true);
     } else if free.len() > 1 {

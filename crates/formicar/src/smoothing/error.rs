@@ -62,7 +62,7 @@ pub enum SmoothingError {
 pub enum CornerProblem {
     /// A segment is too short for every member.
     #[error(
-        "2-turning needs at least {needs_m:.2} m of the segment {side} it, which has {has_m:.2} m"
+        "2-turning needs at least {needs_m:.3} m of the segment {side} it, which has {has_m:.3} m"
     )]
     TooShort {
         /// What the member that comes nearest to fitting takes, metres.
@@ -73,14 +73,14 @@ pub enum CornerProblem {
         side: &'static str,
     },
     /// Every member that the segments have room for collides.
-    #[error("every 2-turning touches obstacles; the best overlaps them by {depth_m:.3} m")]
+    #[error("every 2-turning touches obstacles, by {depth_m:.3} m where it nearly fits")]
     Touches {
-        /// Deepest overlap of the best member, metres.
+        /// Deepest overlap of the member that seems freest, metres.
         depth_m: f64,
     },
     /// The turn at the corner before ends too late.
     #[error(
-        "2-turning needs at least {needs_m:.2} m of the segment before it, of which the turn before leaves {has_m:.2} m"
+        "2-turning needs at least {needs_m:.3} m of the segment before it, of which the turn before leaves {has_m:.3} m"
     )]
     Crowded {
         /// What the shortest free member takes, metres.

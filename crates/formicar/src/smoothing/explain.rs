@@ -1,8 +1,9 @@
 //! What stopped a chain: the first place on the way that could not be passed.
 
-use super::chain::{Stuck, Task};
+use super::chain::Stuck;
 use super::polyline::Leg;
-use super::roadmap::{Facing, Member, Roadmap, Role};
+use super::roadmap::{Facing, Member, Roadmap};
+use super::task::Task;
 use super::{CornerProblem, SmoothingError, TwoTurning};
 use crate::geometry::{Arc, Point2, Pose2};
 use crate::scenario::Endpoint;
@@ -10,37 +11,62 @@ use crate::scenario::Endpoint;
 /// Poses per arc at which overlaps are measured.
 const N_SAMPLES: u32 = 16;
 
-/// Why a chain got stuck.
-pub(super) fn explain(task: &Task, map: &Roadmap, stuck: Stuck) -> SmoothingError {
+/// What was reached of the farthest leg, by the vehicle in one facing.
+struct Farthest {
+    leg: usize,
+    facing: Facing,
+    /// The first and the last place reached.
+    places: [usize; 2],
+}
+
+/// Why no chain reached the goal.
+pub(super) fn explain(task: &Task, map: &Roadmap, stuck: &Stuck) -> SmoothingError {
     let heading = |which| SmoothingError::Heading {
         which,
         reach_m: task.reach_m().min(map.line.length_m()),
     };
-    let Some(reached) = stuck.reached else {
+    let Some(farthest) = farthest(map, stuck) else {
         return heading(Endpoint::Start);
     };
-    let leg = map.places[reached].leg;
+    let leg = farthest.leg;
     if leg == map.line.n_corners() {
-        return if task.ends.goals.is_empty() {
-            straight(task, map, reached)
+        return if task.ends.goal_is_free {
+            straight(task, map, farthest.places[1])
         } else {
             heading(Endpoint::Goal)
         };
     }
-    match problem(task, map, (leg, reached)) {
-        Some(problem) => {
-            let place = world(task, map.line.points[leg + 1]);
-            SmoothingError::Corner {
-                number: leg + 1,
-                x: place.x,
-                y: place.y,
-                turn_deg: map.line.turn_rad(leg).to_degrees(),
-                problem,
-                corners: task.config.corners,
-            }
-        }
-        None => straight(task, map, reached),
+    let Some(problem) = problem(task, map, &farthest) else {
+        return straight(task, map, farthest.places[1]);
+    };
+    let place = world(task, map.line.points[leg + 1]);
+    SmoothingError::Corner {
+        number: leg + 1,
+        x: place.x,
+        y: place.y,
+        turn_deg: map.line.turn_rad(leg).to_degrees(),
+        problem,
+        corners: task.config.corners,
     }
+}
+
+fn farthest(map: &Roadmap, stuck: &Stuck) -> Option<Farthest> {
+    let &(place, _) = stuck.reached.last()?;
+    let leg = map.places[place].leg;
+    let on_leg = |facing: Facing| {
+        let on_leg = stuck.reached.iter();
+        on_leg.filter(move |&&(place, f)| f == facing && map.places[place].leg == leg)
+    };
+    let facings = [Facing::Along, Facing::Against];
+    facings.into_iter().find_map(|facing| {
+        let (first, _) = on_leg(facing).next()?;
+        let (last, _) = on_leg(facing).next_back()?;
+        Some(Farthest {
+            leg,
+            facing,
+            places: [*first, *last],
+        })
+    })
 }
 
 fn straight(task: &Task, map: &Roadmap, place: usize) -> SmoothingError {
@@ -57,33 +83,34 @@ fn world(task: &Task, place: Point2) -> Point2 {
     frame.to_world(Pose2::at(place, 0.0)).position()
 }
 
-/// What is wrong with a corner; nothing where the straight way to it is at fault.
-fn problem(task: &Task, map: &Roadmap, (corner, reached): (usize, usize)) -> Option<CornerProblem> {
-    let members: Vec<&Member> = map.members.iter().filter(|m| m.corner == corner).collect();
-    if members.is_empty() {
+/// What is wrong with the corner at the end of a leg; nothing where the straight way to it is at
+/// fault.
+fn problem(task: &Task, map: &Roadmap, farthest: &Farthest) -> Option<CornerProblem> {
+    let (corner, facing) = (farthest.leg, farthest.facing);
+    let members = || map.members.iter().filter(|m| m.corner == corner);
+    if members().next().is_none() {
         let legs = [map.line.legs[corner], map.line.legs[corner + 1]];
         return Some(shortage(task, map.line.turn_rad(corner), legs));
     }
-    let is_free = |member: &&&Member| {
-        let facings = task.facings().iter();
-        facings.copied().any(|f| drives_free(task, map, member, f))
+    let is_free = |member: &&Member| {
+        let (start, arcs) = motion(map, member, facing);
+        task.all_free(start, &arcs)
     };
-    let free: Vec<&&Member> = members.iter().filter(is_free).collect();
+    let free: Vec<&Member> = members().filter(is_free).collect();
     if free.is_empty() {
-        let depths = members.iter().map(|m| overlap_m(task, map, m));
-        let depth_m = depths.fold(f64::INFINITY, f64::min);
-        return Some(CornerProblem::Touches { depth_m });
+        return Some(CornerProblem::Touches {
+            depth_m: least_overlap_m(task, map, (members(), facing)),
+        });
     }
-    if free.iter().any(|member| member.places[0] > reached) {
+    // The turns of free members begin where the chains did not get to.
+    let first = farthest.places[0];
+    if free.iter().any(|member| member.places[0] > first) {
         return None;
     }
     let needs = free.iter().map(|member| member.turning.before_m);
-    let before = map.legs[corner].clone();
-    let turn_ends = before.filter(|&p| matches!(map.places[p].role, Role::TurnEnds(_)));
-    let first = turn_ends.map(|p| map.places[p].at_m).next()?;
     Some(CornerProblem::Crowded {
         needs_m: needs.fold(f64::INFINITY, f64::min),
-        has_m: map.line.legs[corner].length_m - first,
+        has_m: map.line.legs[corner].length_m - map.places[first].at_m,
     })
 }
 
@@ -111,30 +138,37 @@ fn shortage(task: &Task, turn_rad: f64, [before, after]: [Leg; 2]) -> CornerProb
 }
 
 fn motion(map: &Roadmap, member: &Member, facing: Facing) -> (Pose2, [Arc; 2]) {
-    let sign = facing.sign();
-    let seen = |arc: Arc| Arc::new(sign * arc.curvature_per_m, sign * arc.signed_length_m);
     let start = map.pose(member.places[0], facing);
-    (start, member.turning.arcs().map(seen))
+    (start, member.turning.arcs().map(|arc| facing.seen(arc)))
 }
 
-fn drives_free(task: &Task, map: &Roadmap, member: &Member, facing: Facing) -> bool {
-    let (start, arcs) = motion(map, member, facing);
-    task.all_free(start, &arcs)
+/// The deepest overlap along the member that looks freest on the distance transform, metres.
+fn least_overlap_m<'a>(
+    task: &Task,
+    map: &Roadmap,
+    (members, facing): (impl Iterator<Item = &'a Member>, Facing),
+) -> f64 {
+    let tracks = members.map(|member| poses(map, member, facing));
+    let ceiling_m = |track: &Vec<Pose2>| {
+        let ceilings = track.iter();
+        let ceilings = ceilings.map(|&pose| task.obstacles.clearance_ceiling_m(task.body, pose));
+        ceilings.fold(f64::INFINITY, f64::min)
+    };
+    let freest = tracks.max_by(|a, b| ceiling_m(a).total_cmp(&ceiling_m(b)));
+    let overlaps = freest.into_iter().flatten();
+    let overlaps = overlaps.filter_map(|pose| task.obstacles.overlap(task.body, pose));
+    overlaps.fold(0.0, |deepest, overlap| overlap.depth_m.max(deepest))
 }
 
-/// The deepest overlap along a member driven forward, metres.
-fn overlap_m(task: &Task, map: &Roadmap, member: &Member) -> f64 {
-    let (mut pose, arcs) = motion(map, member, Facing::Along);
-    let mut deepest: f64 = 0.0;
+/// Poses along a member.
+fn poses(map: &Roadmap, member: &Member, facing: Facing) -> Vec<Pose2> {
+    let (mut pose, arcs) = motion(map, member, facing);
+    let mut poses = Vec::new();
     for arc in arcs {
-        let depths = (0..=N_SAMPLES).map(|i| {
-            let driven_m = arc.signed_length_m * f64::from(i) / f64::from(N_SAMPLES);
-            let at = pose.advance(arc.curvature_per_m, driven_m);
-            let overlap = task.obstacles.overlap(task.body, at);
-            overlap.map_or(0.0, |overlap| overlap.depth_m)
-        });
-        deepest = depths.fold(deepest, f64::max);
+        let step_m = arc.signed_length_m / f64::from(N_SAMPLES);
+        let driven = (0..=N_SAMPLES).map(|i| step_m * f64::from(i));
+        poses.extend(driven.map(|driven_m| pose.advance(arc.curvature_per_m, driven_m)));
         pose = arc.end_from(pose);
     }
-    deepest
+    poses
 }

@@ -8,10 +8,12 @@ mod chain;
 mod config;
 mod error;
 mod explain;
+mod open_list;
 mod polyline;
 mod redundant_nodes;
 mod roadmap;
 mod smooth;
+mod task;
 mod two_turning;
 
 pub use config::{Corners, SmoothingConfig};

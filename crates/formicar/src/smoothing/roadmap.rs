@@ -2,7 +2,7 @@
 
 use super::polyline::Polyline;
 use super::{SmoothingConfig, TwoTurning};
-use crate::geometry::Pose2;
+use crate::geometry::{Arc, Pose2};
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -20,6 +20,12 @@ impl Facing {
             Self::Along => 1.0,
             Self::Against => -1.0,
         }
+    }
+
+    /// How a line or arc along the polyline is driven.
+    pub(super) fn seen(self, arc: Arc) -> Arc {
+        let sign = self.sign();
+        Arc::new(sign * arc.curvature_per_m, sign * arc.signed_length_m)
     }
 
     fn turn_rad(self) -> f64 {
@@ -42,11 +48,11 @@ pub(super) struct Place {
 /// What a place is for. In this order at one point, so that a turn may end where the next begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Role {
-    /// A 2-turning ends here: `S3`.
+    /// `S3` of a 2-turning.
     TurnEnds(usize),
-    /// Curves may begin and end here.
+    /// Curves begin and end here.
     Station,
-    /// A 2-turning begins here: `S1`.
+    /// `S1` of a 2-turning.
     TurnBegins(usize),
 }
 

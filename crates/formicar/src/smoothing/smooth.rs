@@ -1,16 +1,20 @@
 //! The one entry: a request and the nodes of a grid path in, a drivable curve out.
 
-use super::chain::{Ends, Piece, Task, cheapest};
+use super::chain::{Piece, cheapest};
 use super::explain::explain;
 use super::polyline::{Polyline, waypoints};
 use super::roadmap::Roadmap;
-use super::{SmoothingConfig, SmoothingError, TwoTurning};
+use super::task::{Ends, Task};
+use super::{Corners, SmoothingConfig, SmoothingError, TwoTurning};
 use crate::collision::{Body, Drive, ObstacleMap};
 use crate::geometry::{Point2, Pose2};
 use crate::map::{BitGrid, Cell, DiagonalRule};
 use crate::path::{CurvePath, Direction, WaypointPath};
 use crate::scenario::{GoalHeading, Request, StartHeading};
 use crate::vehicle::{Motion, Vehicle};
+
+/// Of the headings by which a request samples a free one, every so manieth is tried.
+const FREE_HEADING_STRIDE: usize = 3;
 
 /// Where a grid path was found and who shall drive it.
 #[derive(Clone, Copy, Debug)]
@@ -84,7 +88,7 @@ pub fn smooth(
         return Ok(as_polyline(ground, &points));
     }
     let body = Body::new(ground.vehicle);
-    let ends = ends(ground, request);
+    let ends = ends(ground, request, config.corners, &body);
     let task = Task {
         obstacles: ground.obstacles,
         body: &body,
@@ -94,35 +98,42 @@ pub fn smooth(
         ends: &ends,
     };
     let map = Roadmap::new(Polyline::new(points), config, task.radius_m);
-    let pieces = if map.line.legs.is_empty() && (ends.starts.is_empty() || ends.goals.is_empty()) {
+    let pieces = if map.line.legs.is_empty() && (ends.start_is_free || ends.goal_is_free) {
         vec![standing(&task, request)?]
     } else {
-        cheapest(&task, &map).map_err(|stuck| explain(&task, &map, stuck))?
+        cheapest(&task, &map).map_err(|stuck| explain(&task, &map, &stuck))?
     };
     Ok(assembled(ground, request, &map, &pieces))
 }
 
-/// The poses that the ends are held to, grid coordinates.
-fn ends(ground: &Ground, request: &Request) -> Ends {
+/// The poses at the ends, grid coordinates. Where the heading is free, 2-turning alone begins and
+/// ends as the polyline does.
+fn ends(ground: &Ground, request: &Request, corners: Corners, body: &Body) -> Ends {
     let frame = ground.obstacles.frame();
-    let goals = match request.goal_heading {
-        GoalHeading::Any => Vec::new(),
-        GoalHeading::Exact | GoalHeading::Bidirectional => request.goal_poses(),
-    };
-    let starts = match request.start_heading {
-        StartHeading::Any => Vec::new(),
-        StartHeading::Exact => request.start_poses(),
+    let start_is_free = request.start_heading == StartHeading::Any;
+    let goal_is_free = request.goal_heading == GoalHeading::Any;
+    let placed = |poses: Vec<Pose2>, is_free: bool| {
+        let stride = match (is_free, corners) {
+            (true, Corners::TwoTurning) => return Vec::new(),
+            (true, Corners::TwoTurningOrDubins) => FREE_HEADING_STRIDE,
+            (false, _) => 1,
+        };
+        let poses = poses.into_iter().map(|pose| frame.to_grid(pose));
+        let stands_free = |pose: &Pose2| ground.obstacles.is_free(body, &Drive::at(*pose));
+        poses.step_by(stride).filter(stands_free).collect()
     };
     Ends {
-        starts: starts.into_iter().map(|pose| frame.to_grid(pose)).collect(),
-        goals: goals.into_iter().map(|pose| frame.to_grid(pose)).collect(),
+        starts: placed(request.start_poses(), start_is_free),
+        goals: placed(request.goal_poses(), goal_is_free),
+        start_is_free,
+        goal_is_free,
     }
 }
 
 /// Start and goal in one place with a free heading: the path that does not move.
 fn standing(task: &Task, request: &Request) -> Result<Piece, SmoothingError> {
     let frame = task.obstacles.frame();
-    let held = if task.ends.starts.is_empty() && !task.ends.goals.is_empty() {
+    let held = if task.ends.start_is_free && !task.ends.goal_is_free {
         request.goal_poses()
     } else {
         request.start_poses()

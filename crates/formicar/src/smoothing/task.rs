@@ -1,0 +1,116 @@
+//! What a chain of pieces is made for: what is free, and what driving costs.
+
+use super::SmoothingConfig;
+use super::roadmap::Facing;
+use crate::collision::{Body, Drive, ObstacleMap};
+use crate::geometry::{Arc, Curve, Pose2, dubins, reeds_shepp};
+use crate::scenario::MotionMode;
+
+/// The poses from which curves lead onto the way, and those to which they lead from it.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Ends {
+    pub(super) starts: Vec<Pose2>,
+    pub(super) goals: Vec<Pose2>,
+    /// Whether the path may begin as the polyline does.
+    pub(super) start_is_free: bool,
+    /// Whether the path may end as the polyline does.
+    pub(super) goal_is_free: bool,
+}
+
+/// A body on a map, its parameters and its ends; grid coordinates.
+#[derive(Clone, Copy)]
+pub(super) struct Task<'a> {
+    pub(super) obstacles: &'a ObstacleMap,
+    pub(super) body: &'a Body,
+    pub(super) radius_m: f64,
+    pub(super) config: &'a SmoothingConfig,
+    pub(super) motion: MotionMode,
+    pub(super) ends: &'a Ends,
+}
+
+impl Task<'_> {
+    /// The most of the polyline that one curve replaces, metres.
+    pub(super) fn reach_m(&self) -> f64 {
+        self.config.reach_radii * self.radius_m
+    }
+
+    /// Facings in which the polyline may be followed.
+    pub(super) fn facings(&self) -> &'static [Facing] {
+        match self.motion {
+            MotionMode::Forward => &[Facing::Along],
+            MotionMode::Reverse => &[Facing::Along, Facing::Against],
+        }
+    }
+
+    /// The curves between two poses that the request allows.
+    pub(super) fn words(&self, from: Pose2, to: Pose2) -> Vec<Curve> {
+        match self.motion {
+            MotionMode::Forward => dubins::candidates(from, to, self.radius_m),
+            MotionMode::Reverse => reeds_shepp::candidates(from, to, self.radius_m),
+        }
+    }
+
+    /// Whether the body is free along a line or arc.
+    pub(super) fn is_free(&self, start: Pose2, arc: Arc) -> bool {
+        self.obstacles.is_free(self.body, &drive(start, arc))
+    }
+
+    /// Whether the body is free along arcs driven one after the other. They are cut into short
+    /// pieces, and those that look tightest are checked first: what hits, mostly does so there.
+    pub(super) fn all_free(&self, start: Pose2, arcs: &[Arc]) -> bool {
+        let mut pose = start;
+        let mut pieces = Vec::new();
+        for &arc in arcs {
+            let drive = drive(pose, arc);
+            for piece in drive.pieces(drive.n_pieces(self.body)) {
+                let middle = piece.pose_at(0.5);
+                let ceiling_m = self.obstacles.clearance_ceiling_m(self.body, middle);
+                if ceiling_m < 0.0 {
+                    return false;
+                }
+                pieces.push((ceiling_m, piece));
+            }
+            pose = arc.end_from(pose);
+        }
+        pieces.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut pieces = pieces.iter();
+        pieces.all(|(_, piece)| self.obstacles.is_free(self.body, piece))
+    }
+
+    /// Factor on a length driven in a gear, +1 or -1.
+    pub(super) fn gear_factor(&self, gear: f64) -> f64 {
+        if gear < 0.0 {
+            self.config.reverse_penalty
+        } else {
+            1.0
+        }
+    }
+
+    /// Cost of a curve between two gears; a gear of 0 is none.
+    pub(super) fn word_cost(&self, curve: &Curve, [before, after]: [f64; 2]) -> f64 {
+        let mut gear = before;
+        let mut cost = 0.0;
+        for arc in curve.arcs() {
+            let next = arc.signed_length_m.signum();
+            cost += self.gear_factor(next) * arc.length_m() + self.switching_cost(gear, next);
+            gear = next;
+        }
+        cost + self.switching_cost(gear, after)
+    }
+
+    fn switching_cost(&self, before: f64, after: f64) -> f64 {
+        if before * after < 0.0 {
+            self.config.direction_switching_cost
+        } else {
+            0.0
+        }
+    }
+}
+
+fn drive(start: Pose2, arc: Arc) -> Drive {
+    Drive {
+        start,
+        curvature_per_m: arc.curvature_per_m,
+        signed_length_m: arc.signed_length_m,
+    }
+}
