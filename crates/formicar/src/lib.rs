@@ -6,7 +6,7 @@
 //!
 //! Modules are ranked, and each uses only those before it: [`numeric`], [`geometry`], [`vehicle`],
 //! [`map`], [`path`], [`collision`], [`scenario`], [`validation`], [`metrics`], [`progress`],
-//! [`search`], [`planner`], [`render`]. SI units and radians inside; a pose is the center of the
+//! [`search`], [`tracking`], [`planner`], [`render`]. SI units and radians inside; a pose is the center of the
 //! rear axle, x forward, y left, heading counter-clockwise.
 #![forbid(unsafe_code)]
 
@@ -21,6 +21,7 @@ pub mod progress;
 pub mod render;
 pub mod scenario;
 pub mod search;
+pub mod tracking;
 pub mod validation;
 pub mod vehicle;
 
