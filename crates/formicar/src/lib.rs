@@ -6,9 +6,9 @@
 //!
 //! Modules are ranked, and each uses only those before it: [`numeric`], [`geometry`], [`vehicle`],
 //! [`map`], [`path`], [`collision`], [`scenario`], [`validation`], [`metrics`], [`progress`],
-//! [`layers`], [`objective`], [`smoothing`], [`search`], [`colony`], [`planner`], [`render`]. SI
-//! units and radians inside; a pose is the center of the rear axle, x forward, y left, heading
-//! counter-clockwise.
+//! [`layers`], [`objective`], [`smoothing`], [`search`], [`colony`], [`tracking`], [`planner`],
+//! [`render`]. SI units and radians inside; a pose is the center of the rear axle, x forward, y
+//! left, heading counter-clockwise.
 #![forbid(unsafe_code)]
 
 pub mod collision;
@@ -26,6 +26,7 @@ pub mod render;
 pub mod scenario;
 pub mod search;
 pub mod smoothing;
+pub mod tracking;
 pub mod validation;
 pub mod vehicle;
 

@@ -1,0 +1,81 @@
+//! Which law turns the wheels.
+
+use super::stretch::Stretch;
+use super::{PurePursuit, Stanley};
+use crate::geometry::Pose2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// What turns the wheels.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "law", rename_all = "kebab-case")]
+pub enum Controller {
+    /// The path's own steering angle over the driven length: nobody looks where the vehicle is.
+    OpenLoop,
+    /// Steers along the circle to a point ahead on the path.
+    PurePursuit(PurePursuit),
+    /// Points the front wheels along the path, and towards it where the front axle is off it.
+    Stanley(Stanley),
+}
+
+impl Default for Controller {
+    fn default() -> Self {
+        Self::Stanley(Stanley::default())
+    }
+}
+
+/// What a law may know, in the travel frame.
+pub(super) struct View<'a> {
+    pub(super) stretch: &'a Stretch,
+    /// Length driven on the stretch.
+    pub(super) driven_m: f64,
+    /// The place on the stretch that is nearest to the rear axle.
+    pub(super) foot_m: f64,
+    pub(super) pose: Pose2,
+    pub(super) wheelbase_m: f64,
+    pub(super) speed_mps: f64,
+}
+
+/// A parameter with its value and its range.
+pub(super) type Ranged = (&'static str, f64, [f64; 2]);
+
+impl Controller {
+    /// The words for the laws, as in files.
+    pub const NAMES: [&'static str; 3] = ["open-loop", "pure-pursuit", "stanley"];
+
+    /// The word for the law, as in files.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::OpenLoop => Self::NAMES[0],
+            Self::PurePursuit(_) => Self::NAMES[1],
+            Self::Stanley(_) => Self::NAMES[2],
+        }
+    }
+
+    /// The steering angle that the law asks for, radians, whatever the vehicle can do.
+    pub(super) fn steer_rad(&self, view: &View) -> f64 {
+        match self {
+            Self::OpenLoop => {
+                let curvature_per_m = view.stretch.curvature_at(view.driven_m);
+                (view.wheelbase_m * curvature_per_m).atan()
+            }
+            Self::PurePursuit(law) => law.steer_rad(view),
+            Self::Stanley(law) => law.steer_rad(view),
+        }
+    }
+
+    pub(super) fn for_wheelbase(self, wheelbase_m: f64) -> Self {
+        match self {
+            Self::PurePursuit(law) => Self::PurePursuit(law.for_wheelbase(wheelbase_m)),
+            other => other,
+        }
+    }
+
+    pub(super) fn ranges(&self) -> Vec<Ranged> {
+        match self {
+            Self::OpenLoop => Vec::new(),
+            Self::PurePursuit(law) => law.ranges(),
+            Self::Stanley(law) => law.ranges(),
+        }
+    }
+}
