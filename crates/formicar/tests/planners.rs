@@ -353,7 +353,12 @@ fn heading_modes_gears_and_tolerances_hold() {
 #[test]
 fn what_is_found_on_random_maps_touches_nothing() {
     let vehicles = [Vehicle::warehouse_amr(), Vehicle::f1tenth()];
-    let mut n_found = 0;
+    let planners = [
+        PlannerName::HybridAstar,
+        PlannerName::Lei2020,
+        PlannerName::Wang2019,
+    ];
+    let mut n_found = [0; 3];
     for seed in 0..12 {
         let parameters = ScatterParameters {
             n_cols: 120,
@@ -374,15 +379,15 @@ fn what_is_found_on_random_maps_touches_nothing() {
                 vehicle: vehicle.clone(),
                 request,
             };
-            if let Outcome::Found(plan) =
-                plan_with(PlannerName::HybridAstar, &case, &case.request, &mut ())
-            {
-                n_found += 1;
-                assert_untouched(&case, &plan);
+            for (planner, n_found) in planners.into_iter().zip(&mut n_found) {
+                if let Outcome::Found(plan) = plan_with(planner, &case, &case.request, &mut ()) {
+                    *n_found += 1;
+                    assert_untouched(&case, &plan);
+                }
             }
         }
     }
-    assert!(n_found >= 10, "{n_found}");
+    assert!(n_found.iter().all(|&n| n >= 10), "{n_found:?}");
 }
 
 fn assert_untouched(case: &Case, plan: &Plan) {
