@@ -52,7 +52,7 @@ impl Planner {
         let frame = self.obstacles.frame();
         let cell = |pose: crate::geometry::Pose2| frame.cell_at(pose.position());
         let ends = [request.start, request.goal].map(|pose| cell(pose).unwrap_or_default());
-        let width_cells = self.vehicle.width_m() / frame.resolution_m();
+        let width_cells = self.width_cells();
         let config = &self.config.layers;
         let rule = self.config.colony.diagonal_rule;
         let layers = Layers::new(self.obstacles.lethal(), config, &ends, rule, width_cells);
@@ -121,13 +121,22 @@ impl Planner {
 
     /// Why a colony has no path, where that is its own fault.
     fn explain_colony(&self, run: &ColonyRun) -> Option<String> {
-        let colony = &self.config.colony;
-        let n_iterations = run.history.iterations.len();
-        matches!(run.stop, Stop::Iterations | Stop::Stall).then(|| {
-            format!(
-                "none of {} ants reached the goal in {n_iterations} iterations; hint: more ants (colony.n_ants), colony.guidance.rule=\"advantage\" or colony.dead_end.rule=\"retreat\"",
-                colony.n_ants
-            )
-        })
+        let config = &self.config;
+        let n_expanded = config.layers.expansion.n_cells(self.width_cells());
+        match run.stop {
+            Stop::Iterations | Stop::Stall => Some(format!(
+                "none of {} ants reached the goal in {} iterations; hint: more ants (colony.n_ants), colony.guidance.rule=\"advantage\" or colony.dead_end.rule=\"retreat\"",
+                config.colony.n_ants,
+                run.history.iterations.len()
+            )),
+            Stop::NoWay if n_expanded > 0 => Some(format!(
+                "no steps lead from start to goal among obstacles grown by {n_expanded} cells; hint: a smaller layers.expansion, or hybrid-astar, which uses the true footprint"
+            )),
+            _ => None,
+        }
+    }
+
+    fn width_cells(&self) -> f64 {
+        self.vehicle.width_m() / self.obstacles.frame().resolution_m()
     }
 }
