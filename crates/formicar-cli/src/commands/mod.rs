@@ -8,9 +8,12 @@ mod map;
 mod meta;
 mod plan;
 mod stdin;
+mod subject;
+mod track;
 
 pub(crate) use bench::BenchArgs;
 pub(crate) use map::MapArgs;
+pub(crate) use track::TrackArgs;
 
 use crate::args::Command;
 use crate::failure::{Ending, Failure};
@@ -22,6 +25,7 @@ pub(crate) fn run(command: &Command, out: &mut impl Write) -> Result<Ending, Fai
         Command::Demo(args) => demo::run(args, out),
         Command::Plan(args) => plan::run(args, out),
         Command::Check(args) => check::run(args, out),
+        Command::Track(args) => track::run(args, out),
         Command::Bench(args) => bench::run(args, out),
         Command::BenchRun { job } => bench::run_one(job, out),
         Command::Map(args) => map::run(args, out),
