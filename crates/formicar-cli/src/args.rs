@@ -1,6 +1,6 @@
 //! Commands and flags.
 
-use crate::commands::{BenchArgs, MapArgs, ReproduceArgs};
+use crate::commands::{BenchArgs, MapArgs, ReproduceArgs, TrackArgs};
 use crate::values;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use formicar::geometry::{Point2, Pose2};
@@ -29,6 +29,8 @@ pub(crate) enum Command {
     Plan(Box<PlanArgs>),
     /// Judge a path, ours or foreign; exit code 3 where it cannot be driven.
     Check(CheckArgs),
+    /// Drive a path in simulation; exit code 3 where the vehicle collides or does not arrive.
+    Track(Box<TrackArgs>),
     /// Run planners on scenarios, one process per run: a table of results and a summary.
     Bench(Box<BenchArgs>),
     /// Repeat the experiments of a paper: tables beside its own.
@@ -202,7 +204,8 @@ pub(crate) struct PlanArgs {
 /// Flags of `check`.
 #[derive(Args, Debug)]
 pub(crate) struct CheckArgs {
-    /// The path: an answer of `plan` (.json), or a CSV of x, y[, heading] in metres and radians.
+    /// The path: an answer of `plan` (.json), or a CSV of x, y[, heading] in metres and radians;
+    /// `-` reads it from stdin.
     #[arg(value_name = "PATH", value_hint = ValueHint::FilePath)]
     pub(crate) path: PathBuf,
 
@@ -256,4 +259,6 @@ pub(crate) enum Document {
     Request,
     /// What `plan --json` prints.
     Answer,
+    /// What `track --json` prints.
+    Track,
 }

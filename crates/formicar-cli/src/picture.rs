@@ -68,7 +68,7 @@ pub(crate) fn of(
 }
 
 /// The place of an obstacle that the vehicle comes nearest to.
-fn contact(obstacles: &ObstacleMap, vehicle: &Vehicle, tightest: Pose2) -> Point2 {
+pub(crate) fn contact(obstacles: &ObstacleMap, vehicle: &Vehicle, tightest: Pose2) -> Point2 {
     let frame = obstacles.frame();
     let place = obstacles.nearest_obstacle(&Body::new(vehicle), frame.to_grid(tightest));
     frame.to_world(Pose2::at(place, 0.0)).position()

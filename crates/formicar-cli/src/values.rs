@@ -3,6 +3,7 @@
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use formicar::geometry::{Point2, Pose2};
 use formicar::scenario::GoalTolerance;
+use formicar::tracking::StartOffset;
 use serde::de::DeserializeOwned;
 
 /// A finite number.
@@ -44,6 +45,35 @@ pub(crate) fn point(text: &str) -> Result<Point2, String> {
         return Err("expected X,Y in metres, for instance 2,3.5".to_owned());
     };
     Ok(Point2::new(number(x)?, number(y)?))
+}
+
+/// A rate of turn above 0, radians per second (or `30deg`).
+pub(crate) fn turn_rate(text: &str) -> Result<f64, String> {
+    match angle(text)? {
+        rate if rate > 0.0 => Ok(rate),
+        _ => Err("it must be above 0".to_owned()),
+    }
+}
+
+/// `LEFT[,TURN[,AHEAD]]`: metres, radians (or `5deg`), metres.
+pub(crate) fn start_offset(text: &str) -> Result<StartOffset, String> {
+    let parts: Vec<_> = text.split(',').collect();
+    let (left, turn, ahead) = match parts[..] {
+        [left] => (left, "0", "0"),
+        [left, turn] => (left, turn, "0"),
+        [left, turn, ahead] => (left, turn, ahead),
+        _ => {
+            return Err(format!(
+                "{} numbers; expected LEFT[,TURN[,AHEAD]] in metres and radians, for instance 0.2,5deg",
+                parts.len()
+            ));
+        }
+    };
+    Ok(StartOffset {
+        lateral_m: number(left)?,
+        heading_rad: angle(turn)?,
+        along_m: number(ahead)?,
+    })
 }
 
 /// `M,RAD`, both above 0.
@@ -134,6 +164,21 @@ mod tests {
             "", "1,2", "1,2,3,4", "a,2,3", "nan,0,0", "1,inf,0", "1,2,deg",
         ] {
             assert!(pose(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn reads_offsets_of_one_to_three_numbers() {
+        let all = start_offset("-0.2,90deg,1").unwrap();
+        assert_eq!((all.lateral_m, all.along_m), (-0.2, 1.0));
+        assert_eq!(all.heading_rad, std::f64::consts::FRAC_PI_2);
+        let left = start_offset("0.5").unwrap();
+        assert_eq!(
+            (left.lateral_m, left.heading_rad, left.along_m),
+            (0.5, 0.0, 0.0)
+        );
+        for bad in ["", "1,2,3,4", "a", "1,nan"] {
+            assert!(start_offset(bad).is_err(), "{bad}");
         }
     }
 

@@ -31,6 +31,7 @@ fn schemas_are_json_with_doc_text() {
         ("vehicle", "wheelbase_m"),
         ("request", "goal_tolerance"),
         ("answer", "certificate"),
+        ("track", "summary"),
     ] {
         let schema = run(&["schema", document]);
         assert_eq!(schema.code, 0);

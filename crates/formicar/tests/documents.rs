@@ -7,7 +7,9 @@
 
 use formicar::layers::{LayersConfig, MAX_EXPANSION_CELLS};
 use formicar::planner::HybridAstarConfig;
+use formicar::tracking::{PurePursuit, Stanley, StartOffset, TrackingConfig};
 use schemars::schema_for;
+use std::f64::consts::PI;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -102,6 +104,38 @@ fn the_table_of_layers_has_every_parameter() {
     let n_rows = page.lines().filter(|l| l.starts_with("| `")).count();
     assert_eq!(n_rows, defaults.len(), "rows without a parameter");
     assert!(page.contains(&format!("n in 0 to {MAX_EXPANSION_CELLS}")));
+}
+
+#[test]
+fn the_table_of_tracking_has_every_parameter() {
+    let Some(root) = project() else { return };
+    let page = fs::read_to_string(root.join("docs/src/tracking.md")).unwrap();
+    let number = |value: f64| match value {
+        PI => "pi".to_owned(),
+        value if value == -PI => "-pi".to_owned(),
+        value => value.to_string(),
+    };
+    let mut n_parameters = 0;
+    for schema in [
+        schema_for!(TrackingConfig),
+        schema_for!(StartOffset),
+        schema_for!(PurePursuit),
+        schema_for!(Stanley),
+    ] {
+        for (key, of_key) in schema.to_value()["properties"].as_object().unwrap() {
+            let row = page
+                .lines()
+                .find(|l| l.starts_with(&format!("| `{key}` |")));
+            let row = row.unwrap_or_else(|| panic!("no row of {key}"));
+            let limit = |which: &str| of_key[which].as_f64().map(number);
+            if let (Some(low), Some(high)) = (limit("minimum"), limit("maximum")) {
+                assert!(row.contains(&format!("| {low} to {high} |")), "{row}");
+            }
+            n_parameters += 1;
+        }
+    }
+    let n_rows = page.lines().filter(|l| l.starts_with("| `")).count();
+    assert_eq!(n_rows, n_parameters, "rows without a parameter");
 }
 
 #[test]

@@ -4,9 +4,10 @@ use formicar::geometry::{Point2, Pose2};
 use formicar::map::{BitGrid, Cell, GridFrame, OccupancyGrid};
 use formicar::path::{CurvePath, CurveSegment, Direction, GridPath, WaypointPath};
 use formicar::render::{
-    CellStyle, Chart, Limit, Picture, PlanPicture, ProfilePoint, Ribbon, Scene, Series, palette,
-    plan_picture,
+    CellStyle, Chart, DrivePicture, Limit, Picture, PlanPicture, ProfilePoint, Ribbon, Scene,
+    Series, drive_picture, palette, plan_picture,
 };
+use formicar::tracking::{StartOffset, TrackingConfig, track};
 use formicar::vehicle::Vehicle;
 use proptest::prelude::*;
 
@@ -84,6 +85,43 @@ fn a_plan_is_drawn_with_all_its_parts() {
     ] {
         assert!(svg.contains(&format!("\"{words}\"")), "{words}");
     }
+}
+
+#[test]
+fn a_drive_is_drawn_with_its_wheels_and_errors() {
+    let (vehicle, planned) = (Vehicle::lei2020(), path());
+    let start_offset = StartOffset {
+        lateral_m: 0.3,
+        ..StartOffset::default()
+    };
+    let config = TrackingConfig {
+        start_offset,
+        ..TrackingConfig::default()
+    };
+    let drive = track(&planned, &vehicle, &config).unwrap();
+    let svg = drive_picture(&DrivePicture {
+        map: &room(),
+        vehicle: &vehicle,
+        planned: &planned,
+        drive: &drive,
+        tightest: Some((Point2::new(5.0, 5.0), 0.0)),
+        title: "a drive",
+        caption: "collides",
+    })
+    .to_svg();
+    check(&svg);
+    for words in [
+        "left wheel",
+        "planned",
+        "inner wheel 45.2°",
+        "contact",
+        "time, s",
+    ] {
+        assert!(svg.contains(&format!("\"{words}\"")), "{words}");
+    }
+    // Hundreds of short arcs are no reason for a large file.
+    assert!(drive.driven.segments().len() > 300);
+    assert!(svg.len() < 250_000, "{} bytes", svg.len());
 }
 
 #[test]

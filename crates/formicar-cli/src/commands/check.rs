@@ -1,24 +1,18 @@
 //! `check`: the judge on any path, ours or foreign.
 
+use super::subject::{self, Source, Subject};
 use crate::args::CheckArgs;
 use crate::failure::{Ending, Failure};
+use crate::ground;
 use crate::summary::{clearance, counted, curvature};
-use crate::{files, ground};
-use anyhow::{Context, Result, anyhow};
 use formicar::collision::ObstacleMap;
 use formicar::geometry::wrap_angle;
 use formicar::path::{CurvePath, Direction, PathPose};
-use formicar::planner::{
-    CertificateHashes, CertificateNumbers, POSE_SPACING_M, PoseRecord, StoredPath,
-};
-use formicar::scenario::Request;
-use formicar::validation::{
-    CURVATURE_TOLERANCE, FOREIGN_CURVATURE_SLACK, Report, Samples, judge, judge_path,
-};
-use formicar::vehicle::{Motion, Vehicle};
+use formicar::planner::{CertificateNumbers, POSE_SPACING_M, PoseRecord};
+use formicar::validation::Report;
+use formicar::vehicle::Vehicle;
 use serde::Serialize;
 use std::io::{self, Write};
-use std::path::Path;
 
 /// What `check --json` prints.
 #[derive(Debug, Serialize)]
@@ -42,18 +36,6 @@ struct Checked {
     matches_record: Option<Matches>,
 }
 
-/// Where a path comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-enum Source {
-    /// The segments of an answer.
-    Segments,
-    /// Poses with headings: arcs and gears reconstructed.
-    Poses,
-    /// Points without headings: headings, arcs and gears reconstructed.
-    Points,
-}
-
 #[allow(
     clippy::struct_excessive_bools,
     reason = "one word per thing on record"
@@ -67,24 +49,11 @@ struct Matches {
     numbers: bool,
 }
 
-/// A path to be judged.
-struct Subject {
-    path: CurvePath,
-    /// The same points driven with the gears exchanged, where they may be.
-    exchanged: Option<CurvePath>,
-    source: Source,
-    sample_deviation_m: f64,
-    request: Option<Request>,
-    poses: Option<Vec<PoseRecord>>,
-    hashes: Option<CertificateHashes>,
-    numbers: Option<CertificateNumbers>,
-}
-
 /// Carries out `check`.
 pub(crate) fn run(args: &CheckArgs, out: &mut impl Write) -> Result<Ending, Failure> {
     let ground = ground::load(&args.ground)?;
     let vehicle = &ground.vehicle.vehicle;
-    let subject = read(&args.path, vehicle)?;
+    let subject = subject::read(&args.path, vehicle)?;
     let checked = check(&subject, &ObstacleMap::new(&ground.map), vehicle);
     if args.json {
         serde_json::to_writer(&mut *out, &checked).map_err(io::Error::from)?;
@@ -99,65 +68,8 @@ pub(crate) fn run(args: &CheckArgs, out: &mut impl Write) -> Result<Ending, Fail
     })
 }
 
-fn read(path: &Path, vehicle: &Vehicle) -> Result<Subject> {
-    let text = files::read_text(path)?;
-    let name = || path.display().to_string();
-    if text.trim_start().starts_with('{') {
-        let stored = StoredPath::from_json(&text).with_context(name)?;
-        return Ok(Subject {
-            path: stored.path,
-            exchanged: None,
-            source: Source::Segments,
-            sample_deviation_m: 0.0,
-            request: stored.request,
-            poses: Some(stored.poses),
-            hashes: stored.hashes,
-            numbers: stored.numbers,
-        });
-    }
-    let samples = Samples::from_csv(&text).with_context(name)?;
-    let polyline = || Some(CurvePath::from_polyline(&samples.points));
-    let (path, exchanged) = match (vehicle.motion(), &samples.headings) {
-        (Motion::Point, _) => (polyline(), None),
-        (Motion::Car, Some(_)) => (samples.path(Direction::Forward), None),
-        (Motion::Car, None) => (
-            samples.path(Direction::Forward),
-            samples.path(Direction::Reverse),
-        ),
-    };
-    Ok(Subject {
-        path: path.ok_or_else(|| anyhow!("no poses")).with_context(name)?,
-        exchanged,
-        source: match samples.headings {
-            Some(_) => Source::Poses,
-            None => Source::Points,
-        },
-        sample_deviation_m: samples.deviation_m(),
-        request: None,
-        poses: None,
-        hashes: None,
-        numbers: None,
-    })
-}
-
 fn check(subject: &Subject, obstacles: &ObstacleMap, vehicle: &Vehicle) -> Checked {
-    let curvature_slack = match subject.source {
-        Source::Segments => CURVATURE_TOLERANCE,
-        Source::Poses | Source::Points => FOREIGN_CURVATURE_SLACK,
-    };
-    let alone = |path| judge_path(obstacles, vehicle, path, curvature_slack);
-    let mut path = &subject.path;
-    let mut report = match &subject.request {
-        Some(request) => judge(obstacles, vehicle, request, path),
-        None => alone(path),
-    };
-    // Points do not tell the gears: one way to drive them is enough.
-    if let (false, Some(exchanged)) = (report.valid, &subject.exchanged) {
-        let other = alone(exchanged);
-        if other.valid {
-            (path, report) = (exchanged, other);
-        }
-    }
+    let (path, report) = subject.judged(obstacles, vehicle);
     let matches_record = subject.hashes.as_ref().map(|record| Matches {
         map: record.map_hash == report.map_hash,
         vehicle: record.vehicle_hash == report.vehicle_hash,
@@ -173,7 +85,7 @@ fn check(subject: &Subject, obstacles: &ObstacleMap, vehicle: &Vehicle) -> Check
         schema: "formicar/check/1",
         valid: report.valid && poses_on_segments != Some(false),
         source: subject.source,
-        curvature_slack,
+        curvature_slack: subject.curvature_slack(),
         sample_deviation_m: subject.sample_deviation_m,
         first_gear: first_gear(path),
         length_m: path.length_m(),

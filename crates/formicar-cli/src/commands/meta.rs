@@ -4,6 +4,7 @@ use crate::args::{Cli, Document, SchemaArgs};
 use crate::failure::{Ending, Failure};
 use clap::CommandFactory;
 use formicar::planner::{Answer, PlannerConfig, RequestDocument};
+use formicar::tracking::TrackingDocument;
 use formicar::vehicle::VehicleParameters;
 use std::io::Write;
 
@@ -14,6 +15,7 @@ pub(crate) fn schema(args: &SchemaArgs, out: &mut impl Write) -> Result<Ending, 
         Document::Vehicle => schemars::schema_for!(VehicleParameters),
         Document::Request => schemars::schema_for!(RequestDocument),
         Document::Answer => schemars::schema_for!(Answer),
+        Document::Track => schemars::schema_for!(TrackingDocument),
     };
     serde_json::to_writer_pretty(&mut *out, &schema).map_err(std::io::Error::from)?;
     writeln!(out)?;

@@ -10,10 +10,13 @@ mod meta;
 mod plan;
 mod reproduce;
 mod stdin;
+mod subject;
+mod track;
 
 pub(crate) use bench::BenchArgs;
 pub(crate) use map::MapArgs;
 pub(crate) use reproduce::ReproduceArgs;
+pub(crate) use track::TrackArgs;
 
 use crate::args::Command;
 use crate::failure::{Ending, Failure};
@@ -25,6 +28,7 @@ pub(crate) fn run(command: &Command, out: &mut impl Write) -> Result<Ending, Fai
         Command::Demo(args) => demo::run(args, out),
         Command::Plan(args) => plan::run(args, out),
         Command::Check(args) => check::run(args, out),
+        Command::Track(args) => track::run(args, out),
         Command::Bench(args) => bench::run(args, out),
         Command::BenchRun { job } => bench::run_one(job, out),
         Command::Reproduce(args) => reproduce::run(args, out),

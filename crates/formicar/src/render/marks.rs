@@ -7,7 +7,7 @@ use super::style::{Dash, PoseMark, clearance_label};
 use super::svg::{Element, PathData};
 use super::view::View;
 use crate::geometry::{Point2, Pose2};
-use crate::path::{CurvePath, CurveSegment, Direction};
+use crate::path::{CurvePath, CurveSegment, Direction, PathPose};
 use crate::vehicle::{Motion, Vehicle};
 
 /// Most samples of a path, whatever its length.
@@ -161,7 +161,7 @@ impl Scene {
         path
     }
 
-    /// Poses along a path, about as many pixels apart.
+    /// Poses along a path, about as many pixels apart, and its last one.
     fn samples(&self, path: &CurvePath, spacing_px: f64) -> Vec<Pose2> {
         // Nobody has checked the lengths: taken by size, they bound the samples of each segment.
         let length_m: f64 = path.segments().iter().map(|s| s.length_m.abs()).sum();
@@ -169,13 +169,24 @@ impl Scene {
             return Vec::new();
         }
         let spacing_m = (spacing_px / self.view.px_per_m()).max(length_m / MAX_SAMPLES);
-        path.sample(spacing_m).iter().map(|p| p.pose).collect()
+        thinned(&path.sample(spacing_m), spacing_m)
     }
 
     fn arcs(&self, segments: &[CurveSegment]) -> PathData {
         let mut path = PathData::default();
-        for segment in segments {
+        let mut passed_px = 0.0;
+        for (i, segment) in segments.iter().enumerate() {
             let start = self.view.to_px(segment.start.position());
+            // Of arcs shorter than a pixel chords are drawn, a pixel long.
+            let length_px = self.view.px_per_m() * segment.length_m;
+            if i > 0 && i + 1 < segments.len() && length_px < 1.0 {
+                passed_px += length_px;
+                if passed_px >= 1.0 {
+                    path.line_to(start);
+                    passed_px = 0.0;
+                }
+                continue;
+            }
             path.line_to(start);
             let turn = segment.curvature_per_m * segment.length_m;
             let radius_px = self.view.px_per_m() / segment.curvature_per_m.abs();
@@ -207,6 +218,20 @@ impl Scene {
             self.labels.keep_clear(from.lerp(tip, f64::from(i) / 4.0));
         }
     }
+}
+
+/// The poses without those whose neighbors are within a spacing: segments may be short.
+fn thinned(samples: &[PathPose], spacing_m: f64) -> Vec<Pose2> {
+    let mut kept_m = f64::NEG_INFINITY;
+    let mut poses = Vec::new();
+    for (i, sample) in samples.iter().enumerate() {
+        let next_m = samples.get(i + 1).map_or(f64::INFINITY, |next| next.s_m);
+        if next_m - kept_m > spacing_m * (1.0 + 1e-9) {
+            poses.push(sample.pose);
+            kept_m = sample.s_m;
+        }
+    }
+    poses
 }
 
 pub(super) fn gear_color(direction: Direction) -> Color {

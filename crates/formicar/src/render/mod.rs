@@ -6,6 +6,7 @@
 
 mod cells;
 mod chart;
+mod drive;
 mod focus;
 mod labels;
 mod legend;
@@ -26,6 +27,7 @@ mod ticks;
 mod view;
 
 pub use chart::{Axis, Band, Chart, Limit, Ribbon, SERIES_COLORS, Series, Side};
+pub use drive::{DrivePicture, drive_charts, drive_picture};
 pub use palette::Color;
 pub use picture::Picture;
 pub use plan::{PlanPicture, plan_picture, plan_picture_in};

@@ -47,12 +47,17 @@ pub fn strip_charts(profile: &[ProfilePoint], vehicle: &Vehicle) -> Vec<Chart> {
         });
     }
     charts.push(clearance(profile));
+    stacked(charts, "arc length, m")
+}
+
+/// Charts over one x axis: the first names the stretches in reverse, the last the axis.
+pub(super) fn stacked(mut charts: Vec<Chart>, x_label: &str) -> Vec<Chart> {
     if let Some(first) = charts.first_mut() {
         let name = |band: &mut Band| String::from("reverse").clone_into(&mut band.label);
         first.bands.iter_mut().for_each(name);
     }
     if let Some(last) = charts.last_mut() {
-        last.x.label = String::from("arc length, m");
+        x_label.clone_into(&mut last.x.label);
     }
     charts
 }
@@ -109,13 +114,13 @@ fn strip(
             range: (length_m.is_finite() && length_m > 0.0).then_some((0.0, length_m)),
         },
         y: Axis::named(unit),
-        bands: reverse_stretches(profile),
+        bands: reverse_stretches(profile.iter().map(|p| (p.s_m, p.direction))),
         series: vec![Series::new("", points, palette::FORWARD)],
         ..Chart::default()
     }
 }
 
-fn both_sides(limit: f64, label: impl Fn(f64) -> String) -> Vec<Limit> {
+pub(super) fn both_sides(limit: f64, label: impl Fn(f64) -> String) -> Vec<Limit> {
     [limit, -limit]
         .map(|value| Limit {
             label: label(value),
@@ -124,16 +129,16 @@ fn both_sides(limit: f64, label: impl Fn(f64) -> String) -> Vec<Limit> {
         .to_vec()
 }
 
-fn reverse_stretches(profile: &[ProfilePoint]) -> Vec<Band> {
+/// Shades the stretches of an axis that are driven in reverse, from its values and the gears in
+/// which they are reached.
+pub(super) fn reverse_stretches(points: impl Iterator<Item = (f64, Direction)>) -> Vec<Band> {
     let mut bands: Vec<Band> = Vec::new();
-    for pair in profile.windows(2) {
-        if pair[1].direction == Direction::Forward {
-            continue;
-        }
-        let (from, to) = (pair[0].s_m, pair[1].s_m);
-        match bands.last_mut() {
-            Some(band) if band.to == from => band.to = to,
-            _ => bands.push(Band {
+    let mut from = None;
+    for (to, direction) in points {
+        match (from.replace(to), direction, bands.last_mut()) {
+            (None, _, _) | (_, Direction::Forward, _) => {}
+            (Some(from), Direction::Reverse, Some(band)) if band.to == from => band.to = to,
+            (Some(from), Direction::Reverse, _) => bands.push(Band {
                 label: String::new(),
                 from,
                 to,
@@ -164,7 +169,8 @@ mod tests {
         let profile: Vec<_> = (0..5)
             .map(|i| point(f64::from(i), gears[i as usize]))
             .collect();
-        let stretches: Vec<_> = reverse_stretches(&profile)
+        let points = profile.iter().map(|p| (p.s_m, p.direction));
+        let stretches: Vec<_> = reverse_stretches(points)
             .iter()
             .map(|b| (b.from, b.to))
             .collect();

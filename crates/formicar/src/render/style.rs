@@ -84,9 +84,11 @@ pub enum PoseMark {
     Goal,
 }
 
-/// A clearance with its unit, to the millimetre where it is small.
+/// A clearance with its unit, to the millimetre where it is small; contact has a word of its own.
 pub(super) fn clearance_label(clearance_m: f64) -> String {
-    if clearance_m < 0.1 {
+    if clearance_m == 0.0 {
+        "contact".to_owned()
+    } else if clearance_m < 0.1 {
         format!("{clearance_m:.3} m")
     } else {
         format!("{clearance_m:.2} m")

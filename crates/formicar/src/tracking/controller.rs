@@ -40,15 +40,12 @@ pub(super) struct View<'a> {
 pub(super) type Ranged = (&'static str, f64, [f64; 2]);
 
 impl Controller {
-    /// The words for the laws, as in files.
-    pub const NAMES: [&'static str; 3] = ["open-loop", "pure-pursuit", "stanley"];
-
     /// The word for the law, as in files.
     pub fn name(&self) -> &'static str {
         match self {
-            Self::OpenLoop => Self::NAMES[0],
-            Self::PurePursuit(_) => Self::NAMES[1],
-            Self::Stanley(_) => Self::NAMES[2],
+            Self::OpenLoop => "open-loop",
+            Self::PurePursuit(_) => "pure-pursuit",
+            Self::Stanley(_) => "stanley",
         }
     }
 

@@ -111,6 +111,8 @@ pub struct Tracking {
 pub struct TrackingDocument<'a> {
     /// Name and version of this document: `formicar/track/1`.
     pub schema: &'static str,
+    /// Whether the vehicle arrived and its body touched nothing.
+    pub tracked: bool,
     /// How the drive ended.
     pub status: TrackingStatus,
     /// Every parameter.
@@ -128,6 +130,7 @@ impl Tracking {
     pub fn document<'a>(&'a self, clearance: &'a DrivenClearance) -> TrackingDocument<'a> {
         TrackingDocument {
             schema: TRACKING_SCHEMA,
+            tracked: self.status == TrackingStatus::Arrived && clearance.contact.is_none(),
             status: self.status,
             config: &self.config,
             summary: &self.summary,

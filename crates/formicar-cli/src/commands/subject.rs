@@ -1,0 +1,112 @@
+//! A path as it stands in a file: an answer of ours, or samples of anybody's.
+
+use crate::files;
+use anyhow::{Context, Result, anyhow};
+use formicar::collision::ObstacleMap;
+use formicar::path::{CurvePath, Direction};
+use formicar::planner::{CertificateHashes, CertificateNumbers, PoseRecord, StoredPath};
+use formicar::scenario::Request;
+use formicar::validation::{
+    CURVATURE_TOLERANCE, FOREIGN_CURVATURE_SLACK, Report, Samples, judge, judge_path,
+};
+use formicar::vehicle::{Motion, Vehicle};
+use serde::Serialize;
+use std::path::Path;
+
+/// Where a path comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Source {
+    /// The segments of an answer.
+    Segments,
+    /// Poses with headings: arcs and gears reconstructed.
+    Poses,
+    /// Points without headings: headings, arcs and gears reconstructed.
+    Points,
+}
+
+/// A path, and what is on record about it.
+pub(super) struct Subject {
+    pub(super) path: CurvePath,
+    /// The same points driven with the gears exchanged, where they may be.
+    exchanged: Option<CurvePath>,
+    pub(super) source: Source,
+    pub(super) sample_deviation_m: f64,
+    request: Option<Request>,
+    pub(super) poses: Option<Vec<PoseRecord>>,
+    pub(super) hashes: Option<CertificateHashes>,
+    pub(super) numbers: Option<CertificateNumbers>,
+}
+
+/// Reads a path; the name `-` is stdin.
+pub(super) fn read(path: &Path, vehicle: &Vehicle) -> Result<Subject> {
+    let text = files::read_document(path)?;
+    let name = || path.display().to_string();
+    if text.trim_start().starts_with('{') {
+        let stored = StoredPath::from_json(&text).with_context(name)?;
+        return Ok(Subject {
+            path: stored.path,
+            exchanged: None,
+            source: Source::Segments,
+            sample_deviation_m: 0.0,
+            request: stored.request,
+            poses: Some(stored.poses),
+            hashes: stored.hashes,
+            numbers: stored.numbers,
+        });
+    }
+    let samples = Samples::from_csv(&text).with_context(name)?;
+    let polyline = || Some(CurvePath::from_polyline(&samples.points));
+    let (path, exchanged) = match (vehicle.motion(), &samples.headings) {
+        (Motion::Point, _) => (polyline(), None),
+        (Motion::Car, Some(_)) => (samples.path(Direction::Forward), None),
+        (Motion::Car, None) => (
+            samples.path(Direction::Forward),
+            samples.path(Direction::Reverse),
+        ),
+    };
+    Ok(Subject {
+        path: path.ok_or_else(|| anyhow!("no poses")).with_context(name)?,
+        exchanged,
+        source: match samples.headings {
+            Some(_) => Source::Poses,
+            None => Source::Points,
+        },
+        sample_deviation_m: samples.deviation_m(),
+        request: None,
+        poses: None,
+        hashes: None,
+        numbers: None,
+    })
+}
+
+impl Subject {
+    /// Share by which the curvature may exceed the vehicle's limit.
+    pub(super) fn curvature_slack(&self) -> f64 {
+        match self.source {
+            Source::Segments => CURVATURE_TOLERANCE,
+            Source::Poses | Source::Points => FOREIGN_CURVATURE_SLACK,
+        }
+    }
+
+    /// The path with the judge's findings. Points do not tell the gears: of their two ways the
+    /// second is taken where it alone is valid.
+    pub(super) fn judged(
+        &self,
+        obstacles: &ObstacleMap,
+        vehicle: &Vehicle,
+    ) -> (&CurvePath, Report) {
+        let alone = |path| judge_path(obstacles, vehicle, path, self.curvature_slack());
+        let report = match &self.request {
+            Some(request) => judge(obstacles, vehicle, request, &self.path),
+            None => alone(&self.path),
+        };
+        if let (false, Some(exchanged)) = (report.valid, &self.exchanged) {
+            let other = alone(exchanged);
+            if other.valid {
+                return (exchanged, other);
+            }
+        }
+        (&self.path, report)
+    }
+}

@@ -1,0 +1,128 @@
+//! The flags of `track`, and the parameters they stand for.
+
+use crate::args::GroundArgs;
+use crate::values;
+use anyhow::{Result, bail};
+use clap::{Args, ValueEnum, ValueHint};
+use formicar::tracking::{Controller, PurePursuit, Stanley, StartOffset, TrackingConfig};
+use std::path::PathBuf;
+
+/// Flags of `track`.
+#[derive(Args, Debug)]
+pub(crate) struct TrackArgs {
+    /// The path: an answer of `plan` (.json), or a CSV of x, y[, heading] in metres and radians;
+    /// `-` reads it from stdin.
+    #[arg(value_name = "PATH", value_hint = ValueHint::FilePath)]
+    pub(super) path: PathBuf,
+
+    #[command(flatten)]
+    pub(super) ground: GroundArgs,
+
+    /// What turns the wheels; `stanley` by default.
+    #[arg(long, value_name = "LAW")]
+    controller: Option<Law>,
+
+    /// How far ahead `pure-pursuit` looks, metres; half a wheelbase by default.
+    #[arg(long, value_name = "M", value_parser = values::positive, allow_hyphen_values = true)]
+    lookahead: Option<f64>,
+
+    /// Rate at which `stanley` brings the front axle back to the path, 1/s; 1 by default.
+    #[arg(long, value_name = "PER_S", value_parser = values::positive, allow_hyphen_values = true)]
+    gain: Option<f64>,
+
+    /// What `stanley` adds to the speed, so that a slow vehicle turns its wheels less, m/s.
+    #[arg(long, value_name = "MPS", value_parser = values::not_negative, allow_hyphen_values = true)]
+    softening: Option<f64>,
+
+    /// Speed in m/s; that of the vehicle by default, or 0.3.
+    #[arg(long, value_name = "MPS", value_parser = values::positive, allow_hyphen_values = true)]
+    speed: Option<f64>,
+
+    /// Fastest turn of the wheels in rad/s (or 30deg); that of the vehicle by default, or any.
+    #[arg(long, value_name = "RAD_PER_S", value_parser = values::turn_rate, allow_hyphen_values = true)]
+    steer_rate: Option<f64>,
+
+    /// Where the vehicle starts beside the path: metres to the left, radians (or 5deg), metres
+    /// ahead.
+    #[arg(long, value_name = "LEFT[,TURN[,AHEAD]]", value_parser = values::start_offset,
+          allow_hyphen_values = true)]
+    offset: Option<StartOffset>,
+
+    /// Time for which the wheels are held, seconds; 0.02 by default.
+    #[arg(long, value_name = "S", value_parser = values::positive, allow_hyphen_values = true)]
+    time_step: Option<f64>,
+
+    /// Time between two points of the trace, seconds; 0.1 by default.
+    #[arg(long, value_name = "S", value_parser = values::positive, allow_hyphen_values = true)]
+    record: Option<f64>,
+
+    /// Distance from the path at which the vehicle has left it, metres; 2 by default.
+    #[arg(long, value_name = "M", value_parser = values::positive, allow_hyphen_values = true)]
+    give_up: Option<f64>,
+
+    /// Write the trace as a table.
+    #[arg(long, value_name = "F.csv", value_hint = ValueHint::FilePath)]
+    pub(super) csv: Option<PathBuf>,
+
+    /// Write a picture.
+    #[arg(long, value_name = "F.svg|F.png", value_hint = ValueHint::FilePath)]
+    pub(super) picture: Option<PathBuf>,
+
+    /// Print everything, the trace too, as one JSON object (see `schema track`).
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+/// What turns the wheels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Law {
+    /// The path's own steering angle over the driven length.
+    OpenLoop,
+    /// Along the circle to a point ahead.
+    PurePursuit,
+    /// The front wheels along the path, and towards it.
+    Stanley,
+}
+
+impl TrackArgs {
+    /// The parameters of the flags, over the defaults.
+    pub(super) fn config(&self) -> Result<TrackingConfig> {
+        let usual = TrackingConfig::default();
+        Ok(TrackingConfig {
+            controller: self.controller()?,
+            speed_mps: self.speed,
+            max_steer_rate_rad_per_s: self.steer_rate,
+            time_step_s: self.time_step.unwrap_or(usual.time_step_s),
+            record_interval_s: self.record.unwrap_or(usual.record_interval_s),
+            start_offset: self.offset.unwrap_or(usual.start_offset),
+            give_up_error_m: self.give_up.unwrap_or(usual.give_up_error_m),
+            ..usual
+        })
+    }
+
+    fn controller(&self) -> Result<Controller> {
+        let usual = Stanley::default();
+        let controller = match self.controller.unwrap_or(Law::Stanley) {
+            Law::OpenLoop => Controller::OpenLoop,
+            Law::PurePursuit => Controller::PurePursuit(PurePursuit {
+                lookahead_m: self.lookahead,
+            }),
+            Law::Stanley => Controller::Stanley(Stanley {
+                gain_per_s: self.gain.unwrap_or(usual.gain_per_s),
+                softening_mps: self.softening.unwrap_or(usual.softening_mps),
+            }),
+        };
+        // A flag of another law would do nothing.
+        for (flag, is_given, law) in [
+            ("--lookahead", self.lookahead.is_some(), "pure-pursuit"),
+            ("--gain", self.gain.is_some(), "stanley"),
+            ("--softening", self.softening.is_some(), "stanley"),
+        ] {
+            if is_given && controller.name() != law {
+                let asked = controller.name();
+                bail!("{flag}: {asked} has no such parameter; hint: --controller {law}");
+            }
+        }
+        Ok(controller)
+    }
+}

@@ -1,0 +1,101 @@
+//! `track`: a vehicle driven along a path in simulation.
+
+mod args;
+mod words;
+
+pub(crate) use args::TrackArgs;
+
+use super::subject;
+use crate::failure::{Ending, Failure};
+use crate::ground::{self, Ground};
+use crate::output::Target;
+use crate::picture::{self, PictureKind};
+use anyhow::{Context, Result};
+use formicar::collision::ObstacleMap;
+use formicar::path::CurvePath;
+use formicar::render::{DrivePicture, drive_picture};
+use formicar::tracking::{DrivenClearance, Tracking, track};
+use formicar::validation::Report;
+use std::io::{self, Write};
+
+/// A drive with the ground it was driven on.
+struct Driven<'a> {
+    ground: &'a Ground,
+    obstacles: &'a ObstacleMap,
+    /// The path that was to be driven, and what the judge says of it.
+    planned: &'a CurvePath,
+    report: &'a Report,
+    drive: &'a Tracking,
+    clearance: &'a DrivenClearance,
+}
+
+/// Carries out `track`.
+pub(crate) fn run(args: &TrackArgs, out: &mut impl Write) -> Result<Ending, Failure> {
+    let table = args
+        .csv
+        .as_deref()
+        .map(|path| Target::new(path, &[("csv", ())]));
+    let table = table.transpose()?;
+    let image = args
+        .picture
+        .as_deref()
+        .map(|path| Target::new(path, &picture::KINDS));
+    let image = image.transpose()?;
+    let config = args.config()?;
+    let ground = ground::load(&args.ground)?;
+    let vehicle = &ground.vehicle.vehicle;
+    let config = config.for_vehicle(vehicle).map_err(anyhow::Error::from)?;
+    let subject = subject::read(&args.path, vehicle)?;
+    let obstacles = ObstacleMap::new(&ground.map);
+    let (planned, report) = subject.judged(&obstacles, vehicle);
+    let drive =
+        track(planned, vehicle, &config).with_context(|| args.path.display().to_string())?;
+    let driven = Driven {
+        ground: &ground,
+        obstacles: &obstacles,
+        planned,
+        report: &report,
+        clearance: &drive.clearance(&obstacles, vehicle),
+        drive: &drive,
+    };
+    if let Some(target) = table {
+        target.write(drive.trace_csv().as_bytes())?;
+    }
+    if let Some(target) = image {
+        write_picture(&driven, &target)?;
+    }
+    let document = drive.document(driven.clearance);
+    let tracked = document.tracked;
+    if args.json {
+        serde_json::to_writer(&mut *out, &document).map_err(io::Error::from)?;
+        writeln!(out)?;
+    } else {
+        words::explain(&driven, out)?;
+    }
+    Ok(if tracked {
+        Ending::Done
+    } else {
+        Ending::NoPath
+    })
+}
+
+fn write_picture(driven: &Driven, target: &Target<PictureKind>) -> Result<()> {
+    let (ground, clearance) = (driven.ground, driven.clearance);
+    let vehicle = &ground.vehicle.vehicle;
+    let nearest_at = clearance.contact.map_or(clearance.tightest, |c| c.pose);
+    let place = picture::contact(driven.obstacles, vehicle, nearest_at);
+    let image = drive_picture(&DrivePicture {
+        map: &ground.map,
+        vehicle,
+        planned: driven.planned,
+        drive: driven.drive,
+        tightest: Some((place, clearance.min_clearance_m)),
+        title: &format!(
+            "{}: {}",
+            ground.record.name,
+            words::verdict(driven).replace('_', " ")
+        ),
+        caption: &words::caption(driven),
+    });
+    target.write(&picture::encode(&image, target.kind)?)
+}
