@@ -1,11 +1,13 @@
 //! Random streams and integration: the numbers that everything else is made of.
 
+mod fractional;
 mod gamma;
 mod golden_section;
 mod random;
 mod range;
 mod runge_kutta;
 
+pub use fractional::{FractionalDerivative, FractionalStream, grunwald_letnikov_weights};
 pub use gamma::ln_gamma;
 pub use golden_section::golden_section;
 pub use random::{RandomStream, Seed};

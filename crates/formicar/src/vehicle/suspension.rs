@@ -1,0 +1,296 @@
+//! Steering of a car whose suspension gives way in turns (Li 2024, sections 2 and 3).
+//!
+//! The wheel that steers stands at (x, y) in the body frame, (wheelbase, 0) while nothing moves.
+//! In a turn the suspension deflects, the wheel moves towards the inside of the turn, and the
+//! vehicle reaches less curvature with the same steering limit. How the deflection follows the
+//! lateral force, and how curvature is felt, is of fractional order: both remember.
+
+use crate::numeric::{
+    FractionalDerivative, FractionalStream, OutOfRange, check_range, grunwald_letnikov_weights,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::VecDeque;
+
+/// Parameters of suspension and memory. The default is that of a small loaded car at 2 m/s.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SuspensionParameters {
+    /// Mass carried by the suspension, from 0 to 1e6 kg.
+    pub mass_kg: f64,
+    /// Deflection per lateral force, from 0 (rigid) to 1 m/N: the inverse of the stiffness k.
+    pub compliance_m_per_n: f64,
+    /// Damping over stiffness, c / k, from 0 to 1e3 s^gamma.
+    pub relaxation: f64,
+    /// gamma: order of the damping, above 0 and up to 1; 1 is viscous.
+    pub damping_order: f64,
+    /// How far the wheel moves inward per deflection, from 0 to 100.
+    pub inward_gain: f64,
+    /// How far the wheel moves forward per deflection, from -100 to 100.
+    pub forward_gain: f64,
+    /// Speed, from 0 to 100 m/s.
+    pub speed_mps: f64,
+    /// rho: order of the heading's derivative, above 0 and up to 1; 1 has no memory.
+    pub heading_order: f64,
+    /// Order of the arc length's derivative, above 0 and up to 1; 1 has no memory.
+    pub arc_order: f64,
+    /// Samples that are remembered, from 1 to 10 000.
+    pub window: u32,
+}
+
+impl Default for SuspensionParameters {
+    fn default() -> Self {
+        Self {
+            mass_kg: 300.0,
+            compliance_m_per_n: 5e-5,
+            relaxation: 0.2,
+            damping_order: 0.5,
+            inward_gain: 1.0,
+            forward_gain: 0.0,
+            speed_mps: 2.0,
+            heading_order: 0.9,
+            arc_order: 0.9,
+            window: 8,
+        }
+    }
+}
+
+impl SuspensionParameters {
+    /// Nothing gives way, nothing is remembered: a rigid bicycle.
+    pub fn rigid() -> Self {
+        Self {
+            compliance_m_per_n: 0.0,
+            heading_order: 1.0,
+            arc_order: 1.0,
+            ..Self::default()
+        }
+    }
+
+    /// Checks the ranges.
+    ///
+    /// # Errors
+    /// The first parameter outside its range.
+    pub fn check(&self) -> Result<(), OutOfRange> {
+        const LEAST_ORDER: f64 = 1e-6;
+        check_range("suspension.mass_kg", self.mass_kg, 0.0..=1e6)?;
+        let compliance = self.compliance_m_per_n;
+        check_range("suspension.compliance_m_per_n", compliance, 0.0..=1.0)?;
+        check_range("suspension.relaxation", self.relaxation, 0.0..=1e3)?;
+        for (key, order) in [
+            ("suspension.damping_order", self.damping_order),
+            ("suspension.heading_order", self.heading_order),
+            ("suspension.arc_order", self.arc_order),
+        ] {
+            check_range(key, order, LEAST_ORDER..=1.0)?;
+        }
+        check_range("suspension.inward_gain", self.inward_gain, 0.0..=100.0)?;
+        check_range("suspension.forward_gain", self.forward_gain, -100.0..=100.0)?;
+        check_range("suspension.speed_mps", self.speed_mps, 0.0..=100.0)?;
+        check_range("suspension.window", f64::from(self.window), 1.0..=1e4)
+    }
+}
+
+/// What a step along a path asks of the steering, and what the steering can give there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SteeringDemand {
+    /// K: curvature as it is felt, 1/m, positive left.
+    pub curvature_per_m: f64,
+    /// Deflection of the suspension, metres, positive left.
+    pub deflection_m: f64,
+    /// Place of the steering wheel in the body frame, metres.
+    pub wheel_m: (f64, f64),
+    /// Steering that the step needs, radians, positive left.
+    pub needed_rad: f64,
+    /// Largest steering of a rigid bicycle whose curvature the wheel still reaches here, radians.
+    pub limit_rad: f64,
+}
+
+/// A suspended vehicle on its way: feed it the steps of a path.
+#[derive(Clone, Debug)]
+pub struct SuspendedSteering {
+    parameters: SuspensionParameters,
+    wheelbase_m: f64,
+    max_steer_rad: f64,
+    step_m: f64,
+    deflections: FractionalStream,
+    headings: FadingMean,
+    arcs: FadingMean,
+}
+
+impl SuspendedSteering {
+    /// A vehicle with a wheelbase in metres and a largest steering in radians, at rest; it will
+    /// take steps of about `step_m`, which must be positive.
+    ///
+    /// # Errors
+    /// A parameter outside its range.
+    pub fn new(
+        [wheelbase_m, max_steer_rad]: [f64; 2],
+        parameters: SuspensionParameters,
+        step_m: f64,
+    ) -> Result<Self, OutOfRange> {
+        parameters.check()?;
+        let window = parameters.window as usize;
+        let time_step_s = step_m / parameters.speed_mps.max(f64::MIN_POSITIVE);
+        let order = parameters.damping_order;
+        let derivative = FractionalDerivative::new(order, time_step_s).with_window(window);
+        Ok(Self {
+            wheelbase_m,
+            max_steer_rad,
+            step_m,
+            deflections: derivative.stream(),
+            headings: FadingMean::new(parameters.heading_order, window),
+            arcs: FadingMean::new(parameters.arc_order, window),
+            parameters,
+        })
+    }
+
+    /// Takes a step that turns the heading and covers some arc length, which must be positive.
+    pub fn advance(&mut self, turn_rad: f64, length_m: f64) -> SteeringDemand {
+        // Li 2024 (10-11) as read: fading means of the increments, so that K is the curvature at
+        // order 1, and on any circle.
+        let curvature = self.headings.push(turn_rad) / self.arcs.push(length_m);
+        let deflection = self.deflect(curvature);
+        let p = &self.parameters;
+        let x = self.wheelbase_m + p.forward_gain * deflection.abs();
+        let y = p.inward_gain * deflection;
+        // (12): the wheel at (x, y) moves along (1 - y K, x K).
+        let needed = (x * curvature).atan2(1.0 - y * curvature);
+        // (13-14): the curvature that the displaced wheel reaches at the steering limit.
+        let tangent = self.max_steer_rad.tan();
+        let reached = tangent / (x + y.abs() * tangent);
+        SteeringDemand {
+            curvature_per_m: curvature,
+            deflection_m: deflection,
+            wheel_m: (x, y),
+            needed_rad: needed,
+            limit_rad: (self.wheelbase_m * reached).atan(),
+        }
+    }
+
+    /// The deflection after a step: the fractional Kelvin-Voigt body
+    /// d + (c / k) D^gamma d = F / k, solved for the new d.
+    fn deflect(&mut self, curvature: f64) -> f64 {
+        let p = &self.parameters;
+        let force = p.mass_kg * p.speed_mps * p.speed_mps * curvature;
+        let time_step_s = self.step_m / p.speed_mps.max(f64::MIN_POSITIVE);
+        let damping = p.relaxation * time_step_s.powf(-p.damping_order);
+        let remembered = p.relaxation * self.deflections.memory();
+        let deflection = (p.compliance_m_per_n * force - remembered) / (1.0 + damping);
+        self.deflections.push(deflection);
+        deflection
+    }
+}
+
+/// The mean of the last values, weighted by how long ago they were: the Caputo derivative of the
+/// sum of the values, divided by that of the sum of ones.
+#[derive(Clone, Debug)]
+struct FadingMean {
+    weights: Vec<f64>,
+    values: VecDeque<f64>,
+}
+
+impl FadingMean {
+    fn new(order: f64, window: usize) -> Self {
+        Self {
+            // c(0) = 1, c(k) = c(k - 1) (1 - order / k): those of the order one less.
+            weights: grunwald_letnikov_weights(order - 1.0, window),
+            values: VecDeque::with_capacity(window),
+        }
+    }
+
+    fn push(&mut self, value: f64) -> f64 {
+        self.values.truncate(self.weights.len() - 1);
+        self.values.push_front(value);
+        let weighed = self.values.iter().zip(&self.weights);
+        let (sum, total) = weighed.fold((0.0, 0.0), |(sum, total), (value, weight)| {
+            (sum + value * weight, total + weight)
+        });
+        sum / total
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Wheelbase and largest steering of a sedan.
+    const SEDAN: [f64; 2] = [2.8, 0.61];
+
+    fn steering(parameters: SuspensionParameters) -> SuspendedSteering {
+        SuspendedSteering::new(SEDAN, parameters, 0.2).unwrap()
+    }
+
+    proptest! {
+        #[test]
+        fn rigid_and_without_memory_it_is_the_bicycle(
+            curvatures in prop::collection::vec(-0.25_f64..0.25, 1..30),
+        ) {
+            let mut rigid = steering(SuspensionParameters::rigid());
+            for curvature in curvatures {
+                let demand = rigid.advance(0.2 * curvature, 0.2);
+                let bicycle = (SEDAN[0] * curvature).atan();
+                prop_assert!((demand.needed_rad - bicycle).abs() < 1e-12);
+                prop_assert!((demand.limit_rad - SEDAN[1]).abs() < 1e-12);
+                prop_assert_eq!(demand.deflection_m, 0.0);
+            }
+        }
+
+        #[test]
+        fn mirrored_turns_ask_for_mirrored_steering(
+            curvatures in prop::collection::vec(-0.2_f64..0.2, 1..30),
+        ) {
+            let [mut left, mut right] = [0; 2].map(|_| steering(SuspensionParameters::default()));
+            for curvature in curvatures {
+                let (a, b) = (left.advance(curvature, 0.2), right.advance(-curvature, 0.2));
+                prop_assert!((a.needed_rad + b.needed_rad).abs() < 1e-12);
+                prop_assert!((a.limit_rad - b.limit_rad).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn on_a_circle_curvature_is_felt_as_it_is() {
+        let mut suspended = steering(SuspensionParameters::default());
+        for _ in 0..50 {
+            let demand = suspended.advance(0.02, 0.2);
+            assert!((demand.curvature_per_m - 0.1).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_deflection_settles_at_compliance_times_force_and_lowers_the_limit() {
+        let parameters = SuspensionParameters {
+            damping_order: 1.0,
+            window: 2,
+            ..SuspensionParameters::default()
+        };
+        let settled = parameters.compliance_m_per_n * parameters.mass_kg * 4.0 * 0.1;
+        let mut suspended = steering(parameters);
+        let first = suspended.advance(0.02, 0.2);
+        let last = (0..500)
+            .map(|_| suspended.advance(0.02, 0.2))
+            .last()
+            .unwrap();
+        assert!(first.deflection_m > 0.0 && first.deflection_m < last.deflection_m);
+        assert!((last.deflection_m / settled - 1.0).abs() < 1e-6, "{last:?}");
+        assert!(last.limit_rad < SEDAN[1]);
+        let softer = SuspensionParameters {
+            compliance_m_per_n: 1e-3,
+            ..SuspensionParameters::default()
+        };
+        let mut softer = steering(softer);
+        let softest = (0..500).map(|_| softer.advance(0.02, 0.2)).last().unwrap();
+        assert!(softest.limit_rad < last.limit_rad);
+    }
+
+    #[test]
+    fn bad_parameters_are_refused() {
+        let bad = SuspensionParameters {
+            damping_order: 1.5,
+            ..SuspensionParameters::default()
+        };
+        let error = SuspendedSteering::new(SEDAN, bad, 0.2).unwrap_err();
+        assert!(error.to_string().contains("damping_order = 1.5"), "{error}");
+    }
+}
