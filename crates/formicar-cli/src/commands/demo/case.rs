@@ -11,6 +11,8 @@ use formicar::scenario::{MotionMode, Request};
 /// Search steps after which a run gives up: a second or two. In narrow places a step costs more.
 const BUDGET_STEPS: u64 = 200_000;
 const BUDGET_STEPS_NARROW: u64 = 100_000;
+/// Steps of ants are quick: a second too.
+const BUDGET_STEPS_ANTS: u64 = 20_000_000;
 
 /// Where a run stands in the demo.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,10 +21,17 @@ pub(super) enum Chapter {
     Narrow,
     Variations,
     Grids,
+    Ants,
 }
 
 impl Chapter {
-    pub(super) const ALL: [Self; 4] = [Self::Scenes, Self::Narrow, Self::Variations, Self::Grids];
+    pub(super) const ALL: [Self; 5] = [
+        Self::Scenes,
+        Self::Narrow,
+        Self::Variations,
+        Self::Grids,
+        Self::Ants,
+    ];
 
     pub(super) fn title(self) -> &'static str {
         match self {
@@ -30,6 +39,7 @@ impl Chapter {
             Self::Narrow => "Narrow places",
             Self::Variations => "Other requests",
             Self::Grids => "Grid problems of papers",
+            Self::Ants => "Ants",
         }
     }
 }
@@ -124,9 +134,10 @@ impl Case {
     }
 
     fn budget_steps(&self) -> u64 {
-        match self.map.kind {
-            BuiltinKind::Narrow => BUDGET_STEPS_NARROW,
-            BuiltinKind::Scene | BuiltinKind::GridProblem => BUDGET_STEPS,
+        match (self.chapter, self.map.kind) {
+            (Chapter::Ants, _) => BUDGET_STEPS_ANTS,
+            (_, BuiltinKind::Narrow) => BUDGET_STEPS_NARROW,
+            _ => BUDGET_STEPS,
         }
     }
 

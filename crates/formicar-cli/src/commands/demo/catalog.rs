@@ -3,12 +3,14 @@
 use super::case::{Case, Chapter};
 use anyhow::Result;
 use formicar::geometry::Pose2;
-use formicar::map::builtin::{self, BuiltinKind};
+use formicar::map::builtin::{self, BuiltinKind, BuiltinMap};
+use formicar::planner::PlannerName;
 use formicar::scenario::MotionMode;
 use std::f64::consts::PI;
 
 /// Runs that are drawn as PNG too, one or two per chapter.
-const DRAWN_AS_PNG: [&str; 6] = [
+const DRAWN_AS_PNG: [&str; 7] = [
+    "lei-map1.lei2020",
     "warehouse.dock-to-rack",
     "parking-lot.back-in",
     "neighborhood.across",
@@ -26,6 +28,7 @@ pub(super) fn cases() -> Result<Vec<Case>> {
             Chapter::Narrow => cases.extend(of_kind(BuiltinKind::Narrow, chapter)?),
             Chapter::Variations => cases.extend(variations(chapter)?),
             Chapter::Grids => cases.extend(of_kind(BuiltinKind::GridProblem, chapter)?),
+            Chapter::Ants => cases.extend(ants(chapter)?),
         }
     }
     for case in &mut cases {
@@ -76,6 +79,55 @@ fn variations(chapter: Chapter) -> Result<Vec<Case>> {
             about: "Road works close most of the lane: what is left is thinner than the car.",
             ..Case::new(chapter, "parallel-parking", "gap-6.4m")?
         },
+    ])
+}
+
+/// Colonies on the maps of their papers, and where a vehicle works.
+fn ants(chapter: Chapter) -> Result<Vec<Case>> {
+    let by = |planner: PlannerName, map: &str, about: &'static str| -> Result<Case> {
+        let request = BuiltinMap::by_name(map)?.requests[0].id;
+        Ok(Case {
+            request: planner.name(),
+            planner,
+            about,
+            ..Case::new(chapter, map, request)?
+        })
+    };
+    Ok(vec![
+        by(
+            PlannerName::AntSystem,
+            "lei-map1",
+            "The conventional colony: uniform pheromone, one class of steps. Its way wanders, and \
+             may turn too often for a car.",
+        )?,
+        by(
+            PlannerName::Lei2020,
+            "lei-map1",
+            "Lei & Zheng 2020: U-shapes closed, steps towards the goal first, turns cost. Corners \
+             become pairs of arcs, or curves where those touch an obstacle.",
+        )?,
+        by(
+            PlannerName::Lei2020,
+            "lei-map3",
+            "Lei & Zheng 2020 where long walls force the way up, down and up again.",
+        )?,
+        by(
+            PlannerName::Wang2019,
+            "wang-aisles",
+            "Wang et al. 2019: no step between two obstacles that meet at a corner, so the ants go \
+             around.",
+        )?,
+        by(
+            PlannerName::Zhang2016,
+            "wang-aisles",
+            "Zhang 2016 on the same map: its ants squeeze through, which only a point can do.",
+        )?,
+        by(
+            PlannerName::Lei2020,
+            "warehouse",
+            "Ants where a robot works: 400 000 cells, obstacles grown by half its width, then arcs \
+             and curves for its true footprint.",
+        )?,
     ])
 }
 
