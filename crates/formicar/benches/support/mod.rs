@@ -43,7 +43,8 @@ pub(crate) struct Hood {
     pub(crate) queries: Vec<[Cell; 2]>,
 }
 
-const HOOD_RESOLUTION_M: f64 = 0.2;
+/// Side of its cells, metres.
+pub(crate) const HOOD_RESOLUTION_M: f64 = 0.2;
 
 /// The neighborhood, if the shared data lies beside the workspace.
 pub(crate) fn hood() -> Option<Hood> {

@@ -119,6 +119,17 @@ impl Scene {
         self
     }
 
+    /// A point with its name beside it.
+    pub fn point(&mut self, place: Point2, name: &str) -> &mut Self {
+        let at = self.view.to_px(place);
+        if self.view.shows(at) {
+            let dot = Element::circle(at, 4.0).fill(palette::PAGE);
+            self.body.add(&dot.pen(palette::INK, 1.8));
+            self.labels.name(at, 9.0, (name, palette::INK));
+        }
+        self
+    }
+
     /// Rings a place and writes its clearance.
     pub fn tightest(&mut self, place: Point2, clearance_m: f64) -> &mut Self {
         let at = self.view.to_px(place);

@@ -1,7 +1,8 @@
 //! The cheapest collision-free chain of pieces along a polyline.
 //!
-//! Dijkstra's algorithm over places and facings. A piece goes on the list with its cost and is
-//! checked for collisions only when it comes up: most never do.
+//! A* over places and facings. A piece goes on the list with its cost and is checked for
+//! collisions only when it comes up: most never do. The estimate of what remains is what the
+//! cheapest chain would cost if nothing could be hit and every curve were a straight line.
 
 use super::Corners;
 use super::open_list::{Entry, OpenList, Step};
@@ -59,6 +60,8 @@ struct Search<'a> {
     /// How each node was reached first, and at what cost.
     came_by: Vec<Option<(usize, Step)>>,
     costs: Vec<f64>,
+    /// Per place the least that the rest of the way costs.
+    remaining: Vec<f64>,
     open: OpenList,
     /// Curves with the poses from which they are driven.
     words: Vec<(Pose2, Curve)>,
@@ -69,7 +72,7 @@ struct Search<'a> {
 impl<'a> Search<'a> {
     fn new(task: &'a Task<'a>, map: &'a Roadmap) -> Self {
         let n_nodes = 2 * map.places.len() + 2;
-        Self {
+        let mut search = Self {
             task,
             map,
             came_by: vec![None; n_nodes],
@@ -77,7 +80,40 @@ impl<'a> Search<'a> {
             open: OpenList::default(),
             words: Vec::new(),
             straights: vec![None; 2 * map.legs.len()],
+            remaining: vec![f64::INFINITY; map.places.len()],
+        };
+        for place in (0..map.places.len()).rev() {
+            search.remaining[place] = search.least_remaining(place);
         }
+        search
+    }
+
+    /// The least that the way costs from a place on, by what is known of later places.
+    fn least_remaining(&self, place: usize) -> f64 {
+        let (map, node) = (self.map, 2 * place);
+        let onward = |to: usize, cost: f64| cost + self.remaining[to];
+        let mut least = f64::INFINITY;
+        if let Some((next, length_m)) = map.next_on_leg(place) {
+            least = least.min(onward(next, length_m));
+        } else if map.is_end(place) && self.task.ends.goal_is_free {
+            least = 0.0;
+        }
+        match map.places[place].role {
+            Role::TurnBegins(member) => {
+                let member = &map.members[member];
+                least = least.min(onward(member.places[1], member.cost()));
+            }
+            Role::Station => {
+                for to in self.later_stations(place) {
+                    least = least.min(onward(to, self.least_word_cost([node, 2 * to])));
+                }
+                if self.goal_is_near(place) {
+                    least = least.min(self.least_word_cost([node, self.goal()]));
+                }
+            }
+            Role::TurnEnds(_) => {}
+        }
+        least
     }
 
     fn start(&self) -> usize {
@@ -101,14 +137,22 @@ impl<'a> Search<'a> {
         2 * place + usize::from(facing == Facing::Against)
     }
 
+    fn push(&mut self, cost: f64, nodes: [usize; 2], step: Step) {
+        let remaining = if nodes[1] == self.goal() {
+            0.0
+        } else {
+            self.remaining[nodes[1] / 2]
+        };
+        self.open.push([cost, remaining], nodes, step);
+    }
+
     /// Opens the pieces that begin at the start.
     fn open_start(&mut self) {
         let (start, goal) = (self.start(), self.goal());
-        let (map, ends, reach_m) = (self.map, self.task.ends, self.task.reach_m());
+        let (map, reach_m) = (self.map, self.task.reach_m());
         for &facing in self.task.facings() {
-            if ends.start_is_free && !map.places.is_empty() {
-                let first = Self::node(0, facing);
-                self.open.push(0.0, [start, first], Step::Here);
+            if self.task.ends.start_is_free && !map.places.is_empty() {
+                self.push(0.0, [start, Self::node(0, facing)], Step::Here);
             }
             let near = (0..map.places.len()).take_while(|&place| map.s_m(place) <= reach_m);
             for place in near.filter(|&place| map.is_station(place)) {
@@ -125,23 +169,17 @@ impl<'a> Search<'a> {
         let (place, facing) = Self::place(node);
         let (map, cost) = (self.map, self.costs[node]);
         let factor = self.task.gear_factor(facing.sign());
-        let here = map.places[place];
-        if place + 1 < map.legs[here.leg].end {
-            let cost = cost + factor * (map.places[place + 1].at_m - here.at_m);
-            let next = Self::node(place + 1, facing);
-            self.open.push(cost, [node, next], Step::Straight);
-        } else if here.leg + 1 == map.legs.len() && self.task.ends.goal_is_free {
-            self.open.push(cost, [node, self.goal()], Step::Here);
+        if let Some((next, length_m)) = map.next_on_leg(place) {
+            let nodes = [node, Self::node(next, facing)];
+            self.push(cost + factor * length_m, nodes, Step::Straight);
+        } else if map.is_end(place) && self.task.ends.goal_is_free {
+            self.push(cost, [node, self.goal()], Step::Here);
         }
-        match here.role {
-            Role::TurnBegins(member) => {
-                // Not its own length but that of what it replaces: the deviation alone decides
-                // among members.
-                let turning = &map.members[member].turning;
-                let length_m = turning.before_m + turning.after_m;
-                let cost = cost + factor * (length_m + turning.deviation_m());
-                let next = Self::node(map.members[member].places[1], facing);
-                self.open.push(cost, [node, next], Step::Turning(member));
+        match map.places[place].role {
+            Role::TurnBegins(i) => {
+                let member = &map.members[i];
+                let nodes = [node, Self::node(member.places[1], facing)];
+                self.push(cost + factor * member.cost(), nodes, Step::Turning(i));
             }
             Role::Station => self.open_words(node),
             Role::TurnEnds(_) => {}
@@ -151,30 +189,44 @@ impl<'a> Search<'a> {
     /// Opens the curves from a station to those on later legs and to the goal.
     fn open_words(&mut self, node: usize) {
         let (place, _) = Self::place(node);
-        let map = self.map;
-        let end_m = map.s_m(place) + self.task.reach_m();
-        if self.task.config.corners == Corners::TwoTurningOrDubins {
-            let next_leg = map.legs[map.places[place].leg].end;
-            let later = (next_leg..map.places.len()).take_while(|&to| map.s_m(to) <= end_m);
-            for to in later.filter(|&to| map.is_station(to)) {
-                for &facing in self.task.facings() {
-                    self.open_word([node, Self::node(to, facing)]);
-                }
+        for to in self.later_stations(place) {
+            for &facing in self.task.facings() {
+                self.open_word([node, Self::node(to, facing)]);
             }
         }
-        if map.line.length_m() <= end_m {
+        if self.goal_is_near(place) {
             self.open_word([node, self.goal()]);
         }
+    }
+
+    /// Stations on later legs to which a curve may lead.
+    fn later_stations(&self, place: usize) -> impl Iterator<Item = usize> + use<'a> {
+        let map = self.map;
+        let end_m = map.s_m(place) + self.task.reach_m();
+        let later = match self.task.config.corners {
+            Corners::TwoTurning => 0..0,
+            Corners::TwoTurningOrDubins => map.legs[map.places[place].leg].end..map.places.len(),
+        };
+        let near = later.take_while(move |&to| map.s_m(to) <= end_m);
+        near.filter(|&to| map.is_station(to))
+    }
+
+    /// Whether a curve may lead to the goal.
+    fn goal_is_near(&self, place: usize) -> bool {
+        self.map.line.length_m() - self.map.s_m(place) <= self.task.reach_m()
     }
 
     /// Opens the curves between two nodes at a lower bound of their cost.
     fn open_word(&mut self, nodes: [usize; 2]) {
         if self.came_by[nodes[1]].is_none() {
-            let [from, to] = nodes.map(|node| self.position(node));
-            let least = from.distance(to) + self.passing_cost(nodes);
-            let cost = self.costs[nodes[0]] + least;
-            self.open.push(cost, nodes, Step::AnyWord);
+            let cost = self.costs[nodes[0]] + self.least_word_cost(nodes);
+            self.push(cost, nodes, Step::AnyWord);
         }
+    }
+
+    fn least_word_cost(&self, nodes: [usize; 2]) -> f64 {
+        let [from, to] = nodes.map(|node| self.position(node));
+        from.distance(to) + self.passing_cost(nodes)
     }
 
     /// Cost of the corners that a curve passes; to begin or end with a curve where the polyline's
@@ -241,7 +293,7 @@ impl<'a> Search<'a> {
         let before = self.costs[entry.from] + self.passing_cost(nodes);
         for (cost, start, curve) in words.into_iter().take(MAX_WORDS) {
             let word = Step::Word(self.words.len());
-            self.open.push(before + cost, nodes, word);
+            self.push(before + cost, nodes, word);
             self.words.push((start, curve));
         }
     }
@@ -282,8 +334,10 @@ impl<'a> Search<'a> {
         let arcs = match step {
             Step::Turning(member) => self.map.members[member].turning.arcs().to_vec(),
             Step::Straight => {
-                let [here, next] = [place, place + 1].map(|place| self.map.places[place].at_m);
-                vec![Arc::new(0.0, next - here)]
+                let next = self.map.next_on_leg(place);
+                next.into_iter()
+                    .map(|(_, length_m)| Arc::new(0.0, length_m))
+                    .collect()
             }
             Step::Here | Step::AnyWord | Step::Word(_) => Vec::new(),
         };

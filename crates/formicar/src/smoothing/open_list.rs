@@ -1,4 +1,4 @@
-//! Pieces that wait to be checked, the cheapest first, the oldest among equals.
+//! Pieces that wait to be checked, the least estimate first, the latest among equals.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -21,6 +21,8 @@ pub(super) enum Step {
 /// A step with the cost at which it arrives.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entry {
+    /// Of a whole chain that takes the step, at least.
+    estimate: f64,
     pub(super) cost: f64,
     pub(super) from: usize,
     pub(super) to: usize,
@@ -43,10 +45,10 @@ impl PartialOrd for Entry {
 }
 
 impl Ord for Entry {
-    /// The heap hands out the greatest: the cheapest is.
+    /// The heap hands out the greatest: that of the least estimate is.
     fn cmp(&self, other: &Self) -> Ordering {
-        let by_cost = other.cost.total_cmp(&self.cost);
-        by_cost.then(other.number.cmp(&self.number))
+        let by_estimate = other.estimate.total_cmp(&self.estimate);
+        by_estimate.then(self.number.cmp(&other.number))
     }
 }
 
@@ -57,15 +59,21 @@ pub(super) struct OpenList {
 }
 
 impl OpenList {
-    pub(super) fn push(&mut self, cost: f64, [from, to]: [usize; 2], step: Step) {
-        self.n_pushed += 1;
-        self.heap.push(Entry {
-            cost,
-            from,
-            to,
-            step,
-            number: self.n_pushed,
-        });
+    /// Puts a step between two nodes on the list that arrives at a cost, of which the rest of the
+    /// way takes at least `remaining` more. One that leads nowhere is left out.
+    pub(super) fn push(&mut self, [cost, remaining]: [f64; 2], nodes: [usize; 2], step: Step) {
+        let estimate = cost + remaining;
+        if estimate.is_finite() {
+            self.n_pushed += 1;
+            self.heap.push(Entry {
+                estimate,
+                cost,
+                from: nodes[0],
+                to: nodes[1],
+                step,
+                number: self.n_pushed,
+            });
+        }
     }
 
     pub(super) fn pop(&mut self) -> Option<Entry> {
@@ -78,12 +86,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_cheapest_comes_first_and_the_oldest_of_equals() {
+    fn the_least_estimate_comes_first_and_the_latest_of_equals() {
         let mut open = OpenList::default();
-        for (cost, from) in [(2.0, 0), (1.0, 1), (1.0, 2), (0.5, 3)] {
-            open.push(cost, [from, 9], Step::Straight);
+        let costs = [
+            [2.0, 0.0],
+            [1.0, 0.5],
+            [1.5, 0.0],
+            [0.5, 0.1],
+            [0.0, f64::INFINITY],
+        ];
+        for (from, costs) in costs.into_iter().enumerate() {
+            open.push(costs, [from, 9], Step::Straight);
         }
         let order: Vec<usize> = std::iter::from_fn(|| open.pop()).map(|e| e.from).collect();
-        assert_eq!(order, [3, 1, 2, 0]);
+        assert_eq!(order, [3, 2, 1, 0]);
     }
 }

@@ -65,6 +65,14 @@ pub(super) struct Member {
     pub(super) places: [usize; 2],
 }
 
+impl Member {
+    /// What it costs: not its own length but that of what it replaces, so that the deviation alone
+    /// decides among members.
+    pub(super) fn cost(&self) -> f64 {
+        self.turning.before_m + self.turning.after_m + self.turning.deviation_m()
+    }
+}
+
 /// The polyline with its places, in order.
 #[derive(Clone, Debug)]
 pub(super) struct Roadmap {
@@ -113,6 +121,21 @@ impl Roadmap {
     pub(super) fn s_m(&self, place: usize) -> f64 {
         let Place { leg, at_m, .. } = self.places[place];
         self.line.legs[leg].s_m + at_m
+    }
+
+    /// The next place of the same leg, and how far it is in metres.
+    pub(super) fn next_on_leg(&self, place: usize) -> Option<(usize, f64)> {
+        let here = &self.places[place];
+        let next = self
+            .places
+            .get(place + 1)
+            .filter(|next| next.leg == here.leg)?;
+        Some((place + 1, next.at_m - here.at_m))
+    }
+
+    /// Whether the polyline ends at a place.
+    pub(super) fn is_end(&self, place: usize) -> bool {
+        place + 1 == self.places.len()
     }
 
     pub(super) fn is_station(&self, place: usize) -> bool {
