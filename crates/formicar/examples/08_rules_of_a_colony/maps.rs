@@ -1,52 +1,24 @@
-//! Pictures of what the rules of a colony do, each from the engine itself.
-//!
-//! `cargo run --release -p formicar --example 08_rules_of_a_colony`
-#![allow(clippy::print_stdout, reason = "an example talks to its reader")]
+//! What lies on a map before ants walk, and where their first step leads.
 
-use formicar::colony::deposit::{AllAnts, BestAnt, BestWorst, Deposit, Elitist, Fittest};
-use formicar::colony::evaporation::{Adaptive, Constant, Evaporation, PoissonEvaporation};
+use crate::{Outcome, ground, send};
+use formicar::colony::deposit::{AllAnts, Deposit};
+use formicar::colony::evaporation::{Constant, Evaporation};
 use formicar::colony::initial::{InitialPheromone, LineGradient, PheromoneUnit};
-use formicar::colony::limits::{Floor, MaxMin, PheromoneLimits};
 use formicar::colony::transition::{GoalDirected, ObliqueFirst, Transition};
-use formicar::colony::{ColonyConfig, ColonyProblem, ColonyRun, dead_end, presets, run};
+use formicar::colony::{ColonyConfig, ColonyProblem, presets, run};
 use formicar::geometry::Point2;
-use formicar::layers::obstacle_expansion;
-use formicar::map::builtin::BuiltinMap;
 use formicar::map::{
     BitGrid, Cell, DiagonalRule, FREE, GridFrame, MoveMasks, OccupancyGrid, STEPS,
 };
 use formicar::numeric::Seed;
 use formicar::path::GridPath;
-use formicar::progress::{Event, IterationRecord, Limits, Observer};
-use formicar::render::{
-    Axis, CellStyle, Chart, Color, Dash, LineStyle, Picture, SERIES_COLORS, Scene, Series, palette,
-};
+use formicar::progress::{Event, Limits, Observer};
+use formicar::render::{CellStyle, Color, Dash, LineStyle, Picture, Scene, palette};
 use formicar::search::{GoalField, STRAIGHT_COST};
-use std::{error::Error, fs};
-
-type Outcome<T> = Result<T, Box<dyn Error>>;
-
-fn main() -> Outcome<()> {
-    fs::create_dir_all("formicar-examples/rules")?;
-    for (name, picture) in [
-        ("heuristic", heuristic()?),
-        ("initial-pheromone", initial_pheromone()?),
-        ("transition", transition()?),
-        ("dead-ends", dead_ends()?),
-        ("evaporation", evaporation()),
-        ("deposit", deposit()?),
-        ("limits", limits()?),
-    ] {
-        println!("{name}: {}", picture.caption);
-        let file = format!("formicar-examples/rules/{name}.svg");
-        fs::write(file, picture.to_svg())?;
-    }
-    Ok(())
-}
 
 /// Distances to the goal, straight and along the shortest way, on two copies of a map, with what
 /// comes of always going where they fall most.
-fn heuristic() -> Outcome<Picture> {
+pub(crate) fn heuristic() -> Outcome<Picture> {
     let (map, problem) = ground("lei-map1", 0)?;
     let (moves, goal) = (problem.moves(), problem.goal());
     let field = GoalField::new(moves, &[goal], &mut Limits::new(&mut (), None, None))?;
@@ -100,7 +72,7 @@ fn heuristic() -> Outcome<Picture> {
 }
 
 /// The gradient about the line from start to goal, as it lies before the first iteration.
-fn initial_pheromone() -> Outcome<Picture> {
+pub(crate) fn initial_pheromone() -> Outcome<Picture> {
     let (map, problem) = ground("lei-map1", 1)?;
     let gradient = LineGradient {
         unit: PheromoneUnit::Absolute,
@@ -129,7 +101,7 @@ fn initial_pheromone() -> Outcome<Picture> {
 }
 
 /// First steps of many ants on open ground, under three rules side by side.
-fn transition() -> Outcome<Picture> {
+pub(crate) fn transition() -> Outcome<Picture> {
     let rows = ["       #       #       "; 5];
     let map = OccupancyGrid::from_rows(&rows, 1.0)?;
     let (start, goal) = (Cell::new(2, 2), Cell::new(6, 3));
@@ -168,165 +140,6 @@ fn transition() -> Outcome<Picture> {
         scene: Some(scene),
         ..Picture::default()
     })
-}
-
-/// How many ants arrive on a map with long walls, by what they do in dead ends.
-fn dead_ends() -> Outcome<Picture> {
-    let (_, problem) = ground("lei-map3", 1)?;
-    let retreat = |max_steps| dead_end::DeadEnd::Retreat(dead_end::Retreat { max_steps });
-    let mut series = Vec::new();
-    for (name, rule) in [
-        ("die", dead_end::DeadEnd::Die),
-        ("retreat, max_steps = 10", retreat(10)),
-        ("retreat, max_steps = 100", retreat(100)),
-        ("retreat, max_steps = 1000", retreat(1000)),
-    ] {
-        let config = ColonyConfig {
-            dead_end: rule,
-            ..presets::ant_system()
-        };
-        let share = |r: &IterationRecord| 100.0 * f64::from(r.n_arrived) / f64::from(r.n_ants);
-        series.push((name, over_iterations(&problem, &config, share)?));
-    }
-    let caption = "Ant System on lei-map3, obstacles grown by one cell, 500 ants";
-    Ok(charts(
-        "Ants that arrive",
-        caption,
-        vec![chart("ants that arrive, %", series)],
-    ))
-}
-
-/// The evaporated share over a run of 150 iterations.
-fn evaporation() -> Picture {
-    let poisson = |stretch| {
-        Evaporation::Poisson(PoissonEvaporation {
-            stretch,
-            ..PoissonEvaporation::default()
-        })
-    };
-    let rules = [
-        ("constant", Evaporation::Constant(Constant::default())),
-        ("poisson, stretch = 1", poisson(1.0)),
-        ("poisson, stretch = N / 20", poisson(150.0 / 20.0)),
-        (
-            "adaptive, nothing better found",
-            Evaporation::Adaptive(Adaptive::default()),
-        ),
-    ];
-    let series = rules.into_iter().map(|(name, rule)| {
-        let rho = |i| Point2::new(f64::from(i + 1), rule.rho(i, i));
-        (name, (0..150).map(rho).collect())
-    });
-    charts(
-        "What evaporates after each iteration",
-        "150 iterations; every rule with its defaults but for what is named",
-        vec![chart("rho", series.collect())],
-    )
-}
-
-/// Who deposits: how fast ants agree, and how much pheromone piles up.
-fn deposit() -> Outcome<Picture> {
-    let (_, problem) = ground("lei-map1", 1)?;
-    let (mut costs, mut most) = (Vec::new(), Vec::new());
-    for (name, rule) in [
-        ("all-ants", Deposit::AllAnts(AllAnts::default())),
-        ("elitist", Deposit::Elitist(Elitist::default())),
-        ("fittest", Deposit::Fittest(Fittest::default())),
-        ("best-ant", Deposit::BestAnt(BestAnt::default())),
-        ("best-worst", Deposit::BestWorst(BestWorst::default())),
-    ] {
-        let config = ColonyConfig {
-            deposit: rule,
-            limits: PheromoneLimits::Floor(Floor::default()),
-            ..presets::ant_system()
-        };
-        let mean = |record: &IterationRecord| record.mean_cost.unwrap_or(f64::NAN);
-        costs.push((name, over_iterations(&problem, &config, mean)?));
-        let most_pheromone = |record: &IterationRecord| record.max_pheromone;
-        most.push((
-            name,
-            relative_log(over_iterations(&problem, &config, most_pheromone)?),
-        ));
-    }
-    let caption = "Ant System on lei-map1 with each rule's defaults and a floor of 0.001";
-    let charts_of = vec![
-        chart("mean cost of ants that arrive", costs),
-        chart("log10 of most pheromone / that of iteration 1", most),
-    ];
-    Ok(charts("Who deposits", caption, charts_of))
-}
-
-/// The most (solid) and the least (dashed) pheromone under limits.
-fn limits() -> Outcome<Picture> {
-    let (_, problem) = ground("lei-map1", 1)?;
-    let mut series = Vec::new();
-    for (name, color, rule) in [
-        ("none", SERIES_COLORS[1], PheromoneLimits::None),
-        (
-            "floor",
-            SERIES_COLORS[2],
-            PheromoneLimits::Floor(Floor::default()),
-        ),
-        (
-            "max-min",
-            SERIES_COLORS[0],
-            PheromoneLimits::MaxMin(MaxMin::default()),
-        ),
-    ] {
-        let config = ColonyConfig {
-            limits: rule,
-            ..presets::max_min()
-        };
-        let log = |value: f64| value.max(f64::MIN_POSITIVE).log10();
-        let high = over_iterations(&problem, &config, |r| log(r.max_pheromone))?;
-        let low = over_iterations(&problem, &config, |r| log(r.min_pheromone))?;
-        series.push(Series::new(&format!("{name}: most"), high, color));
-        series.push(Series {
-            dash: Dash::Dashed,
-            ..Series::new(&format!("{name}: least"), low, color)
-        });
-    }
-    let chart = Chart {
-        series,
-        ..chart("log10 of pheromone", Vec::new())
-    };
-    let caption = "MAX-MIN Ant System on lei-map1 with its limits, a floor of 0.001, and none";
-    Ok(charts(
-        "Between which limits pheromone lies",
-        caption,
-        vec![chart],
-    ))
-}
-
-/// A built-in map and its first request, with obstacles grown by some cells.
-fn ground(name: &str, n_grown: u32) -> Outcome<(OccupancyGrid, ColonyProblem)> {
-    let builtin = BuiltinMap::by_name(name)?;
-    let (map, request) = (builtin.grid(), builtin.requests[0]);
-    let mut blocked = map.lethal_cells();
-    blocked.unite(&obstacle_expansion(&map.lethal_cells(), n_grown));
-    let moves = MoveMasks::new(&blocked, DiagonalRule::NoObstacles);
-    let cell = |position| map.frame().cell_at(position).ok_or("off the map");
-    let (start, goal) = (
-        cell(request.start.position())?,
-        cell(request.goal.position())?,
-    );
-    Ok((map, ColonyProblem::new(moves, start, goal)))
-}
-
-fn send(problem: &ColonyProblem, config: &ColonyConfig) -> Outcome<ColonyRun> {
-    let mut nobody = ();
-    let mut limits = Limits::new(&mut nobody, None, None);
-    Ok(run(problem, config, Seed(0), 1, &mut limits)?)
-}
-
-fn over_iterations(
-    problem: &ColonyProblem,
-    config: &ColonyConfig,
-    value: impl Fn(&IterationRecord) -> f64,
-) -> Outcome<Vec<Point2>> {
-    let history = send(problem, config)?.history.iterations;
-    let point = |r: &IterationRecord| Point2::new(f64::from(r.iteration + 1), value(r));
-    Ok(history.iter().map(point).collect())
 }
 
 /// Shares of ants by their first step, none of which is beside the goal.
@@ -432,45 +245,5 @@ fn line_style(label: &str, color: Color, width_px: f64) -> LineStyle {
         color,
         width_px,
         dash: Dash::Solid,
-    }
-}
-
-/// Logarithms of values relative to the first.
-fn relative_log(points: Vec<Point2>) -> Vec<Point2> {
-    let first = points.first().map_or(1.0, |point| point.y);
-    let log = |p: Point2| Point2::new(p.x, (p.y / first).log10());
-    points.into_iter().map(log).collect()
-}
-
-/// A chart over iterations.
-fn chart(quantity: &str, lines: Vec<(&str, Vec<Point2>)>) -> Chart {
-    let dashes = [
-        Dash::Solid,
-        Dash::Dashed,
-        Dash::Solid,
-        Dash::Dashed,
-        Dash::Dotted,
-    ];
-    let colors = SERIES_COLORS.into_iter().chain([palette::INK]);
-    let looks = colors.zip(dashes);
-    let line = |((label, points), (color, dash)): ((&str, _), _)| Series {
-        dash,
-        ..Series::new(label, points, color)
-    };
-    Chart {
-        x: Axis::named("iteration"),
-        y: Axis::named(quantity),
-        series: lines.into_iter().zip(looks).map(line).collect(),
-        height_px: 260.0,
-        ..Chart::default()
-    }
-}
-
-fn charts(title: &str, caption: &str, charts: Vec<Chart>) -> Picture {
-    Picture {
-        title: title.to_owned(),
-        caption: caption.to_owned(),
-        charts,
-        ..Picture::default()
     }
 }
