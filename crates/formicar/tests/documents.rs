@@ -5,10 +5,17 @@
     reason = "a test suite: helpers outside of tests may fail and say that they skip"
 )]
 
+use formicar::colony::{
+    ColonyConfig, dead_end, deposit, evaporation, heuristic, initial, limits, transition,
+};
 use formicar::layers::{LayersConfig, MAX_EXPANSION_CELLS};
-use formicar::planner::HybridAstarConfig;
+use formicar::planner::{HybridAstarConfig, PlannerConfig, PlannerName};
 use formicar::tracking::{PurePursuit, Stanley, StartOffset, TrackingConfig};
-use schemars::schema_for;
+use schemars::{JsonSchema, schema_for};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -24,7 +31,13 @@ fn project() -> Option<PathBuf> {
 }
 
 fn pages(root: &Path) -> Vec<PathBuf> {
-    let folders = [".", "docs/src", "crates/formicar"];
+    let folders = [
+        ".",
+        "docs/src",
+        "docs/src/planners",
+        "docs/src/rules",
+        "crates/formicar",
+    ];
     let files = folders.iter().flat_map(|folder| {
         let entries = fs::read_dir(root.join(folder)).unwrap();
         entries.map(|entry| entry.unwrap().path())
@@ -104,6 +117,139 @@ fn the_table_of_layers_has_every_parameter() {
     let n_rows = page.lines().filter(|l| l.starts_with("| `")).count();
     assert_eq!(n_rows, defaults.len(), "rows without a parameter");
     assert!(page.contains(&format!("n in 0 to {MAX_EXPANSION_CELLS}")));
+}
+
+/// A value as pages write it: words in backticks.
+fn cell(value: &Value) -> String {
+    let word = value.as_str().map(|word| format!("`{word}`"));
+    word.unwrap_or_else(|| value.to_string())
+}
+
+/// What stands below the heading that is a rule's name.
+fn section<'a>(page: &'a str, rule: &str) -> Option<&'a str> {
+    let heading = format!("# `{rule}`\n");
+    let (_, rest) = page.split_once(&heading)?;
+    rest.split("\n#").next()
+}
+
+/// Each rule of a slot with its defaults, the name aside, as the schema and serde know them.
+fn rules_of<R: JsonSchema + Serialize + DeserializeOwned>() -> Vec<(String, Vec<(String, Value)>)> {
+    let schema = schema_for!(R).to_value();
+    let variants = schema["oneOf"].as_array().unwrap().clone();
+    let rule = |variant: Value| {
+        let name = variant["properties"]["rule"]["const"].as_str().unwrap();
+        let default: R = serde_json::from_value(json!({ "rule": name })).unwrap();
+        let mut defaults = serde_json::to_value(default).unwrap();
+        let defaults = defaults.as_object_mut().unwrap();
+        defaults.remove("rule");
+        (name.to_owned(), defaults.clone().into_iter().collect())
+    };
+    variants.into_iter().map(rule).collect()
+}
+
+fn compare_rules<R: JsonSchema + Serialize + DeserializeOwned>(root: &Path, slot: &str) {
+    let file = root.join(format!("docs/src/rules/{slot}.md"));
+    let page = fs::read_to_string(&file).unwrap();
+    let rules = rules_of::<R>();
+    assert!(rules.len() > 1, "{slot}: the schema was not understood");
+    for (rule, defaults) in rules {
+        if rule == "none" && defaults.is_empty() {
+            assert!(page.contains("`none`"), "{slot}: none is not named");
+            continue;
+        }
+        let text = section(&page, &rule).unwrap_or_else(|| panic!("{slot}: no section {rule}"));
+        for (key, default) in &defaults {
+            let row = format!("| `{key}` | {} |", cell(default));
+            assert!(text.contains(&row), "{slot}, {rule}: no row {row}");
+        }
+        let n_rows = text.lines().filter(|l| l.starts_with("| `")).count();
+        assert_eq!(n_rows, defaults.len(), "{slot}, {rule}: stray rows");
+    }
+}
+
+#[test]
+fn the_pages_of_rules_have_every_rule_and_parameter() {
+    let Some(root) = project() else { return };
+    compare_rules::<heuristic::Visibility>(&root, "heuristic");
+    compare_rules::<heuristic::Guidance>(&root, "heuristic");
+    compare_rules::<initial::InitialPheromone>(&root, "initial-pheromone");
+    compare_rules::<transition::Transition>(&root, "transition");
+    compare_rules::<dead_end::DeadEnd>(&root, "dead-ends");
+    compare_rules::<evaporation::Evaporation>(&root, "evaporation");
+    compare_rules::<deposit::Deposit>(&root, "deposit");
+    compare_rules::<limits::PheromoneLimits>(&root, "limits");
+}
+
+/// Dotted keys of a document with their values.
+fn flat(value: &Value) -> BTreeMap<String, Value> {
+    let Some(table) = value.as_object() else {
+        return BTreeMap::from([(String::new(), value.clone())]);
+    };
+    let inner = table.iter().flat_map(|(key, value)| {
+        let entries = flat(value).into_iter();
+        entries.map(move |(rest, value)| match rest.as_str() {
+            "" => (key.clone(), value),
+            rest => (format!("{key}.{rest}"), value),
+        })
+    });
+    inner.collect()
+}
+
+#[test]
+fn the_page_of_the_engine_has_every_parameter_without_a_slot() {
+    let Some(root) = project() else { return };
+    let page = fs::read_to_string(root.join("docs/src/ant-colonies.md")).unwrap();
+    let all = serde_json::to_value(ColonyConfig::default()).unwrap();
+    let mut all = all.as_object().unwrap().clone();
+    all.retain(|_, value| value.get("rule").is_none());
+    let defaults = flat(&Value::Object(all));
+    assert!(defaults.len() > 10);
+    for (key, default) in defaults {
+        let row = format!("| `{key}` | {} |", cell(&default));
+        assert!(page.contains(&row), "no row {row}");
+    }
+}
+
+#[test]
+fn every_colony_has_a_page_that_tells_how_it_differs() {
+    let Some(root) = project() else { return };
+    let summary = fs::read_to_string(root.join("docs/src/SUMMARY.md")).unwrap();
+    let mut n_colonies = 0;
+    for planner in PlannerName::ALL {
+        if planner.colony().is_none() {
+            continue;
+        }
+        n_colonies += 1;
+        let file = format!("planners/{}.md", planner.name());
+        assert!(summary.contains(&format!("]({file})")), "{file}");
+        let page = fs::read_to_string(root.join("docs/src").join(&file)).unwrap();
+        let base = match planner {
+            PlannerName::AntSystem => continue,
+            PlannerName::Zhang2016 | PlannerName::Joshy2016 => PlannerName::Wang2019,
+            _ => PlannerName::AntSystem,
+        };
+        let [base, own] = [base, planner].map(|planner| {
+            let mut all = serde_json::to_value(PlannerConfig::of(planner)).unwrap();
+            all.as_object_mut().unwrap().remove("planner");
+            flat(&all)
+        });
+        let keys = base
+            .keys()
+            .chain(own.keys().filter(|&k| !base.contains_key(k)));
+        let differing: Vec<&String> = keys.filter(|&k| base.get(k) != own.get(k)).collect();
+        let text = |value: Option<&Value>| value.map_or("-".to_owned(), cell);
+        for key in &differing {
+            let row = format!(
+                "| `{key}` | {} | {} |",
+                text(base.get(*key)),
+                text(own.get(*key))
+            );
+            assert!(page.contains(&row), "{file}: no row {row}");
+        }
+        let n_rows = page.lines().filter(|l| l.starts_with("| `")).count();
+        assert_eq!(n_rows, differing.len(), "{file}: stray rows");
+    }
+    assert!(n_colonies > 0);
 }
 
 #[test]
