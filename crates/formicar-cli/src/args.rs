@@ -191,6 +191,11 @@ pub(crate) struct PlanArgs {
     #[arg(long, value_name = "F.svg|F.png", value_hint = ValueHint::FilePath, conflicts_with = "stdin")]
     pub(crate) picture: Option<PathBuf>,
 
+    /// Write how a colony found its way: pheromone, ants and convergence as a picture, or as a film
+    /// (.gif).
+    #[arg(long, value_name = "F.svg|F.png|F.gif", value_hint = ValueHint::FilePath, conflicts_with = "stdin")]
+    pub(crate) ants: Option<PathBuf>,
+
     /// Print the answer as one JSON object.
     #[arg(long)]
     pub(crate) json: bool,

@@ -1,6 +1,7 @@
-//! A clock for queries that remembers when the first path was certified.
+//! What watches a query: a clock that remembers when the first path was certified, and whoever
+//! keeps its ants.
 
-use formicar::progress::{Event, Observer};
+use formicar::progress::{AntFrames, Event, Observer};
 use std::time::{Duration, Instant};
 
 /// Lends time to a query and notes its certified paths.
@@ -47,5 +48,25 @@ impl Observer for Clock {
 
     fn elapsed(&mut self) -> Option<Duration> {
         Some(self.begun.elapsed())
+    }
+}
+
+/// A clock, and ants kept for a picture where one is wanted.
+#[derive(Debug)]
+pub(crate) struct Watch<'a> {
+    pub(crate) clock: Clock,
+    pub(crate) ants: Option<&'a mut AntFrames>,
+}
+
+impl Observer for Watch<'_> {
+    fn on_event(&mut self, event: &Event) {
+        self.clock.on_event(event);
+        if let Some(ants) = &mut self.ants {
+            ants.on_event(event);
+        }
+    }
+
+    fn elapsed(&mut self) -> Option<Duration> {
+        self.clock.elapsed()
     }
 }

@@ -3,6 +3,7 @@
 //! Exit codes: 0 a feasible path (or a command without one that succeeded), 1 an internal
 //! failure, 2 wrong usage or input, 3 finished without a feasible path.
 
+mod ants;
 mod args;
 mod clock;
 mod commands;

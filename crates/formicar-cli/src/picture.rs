@@ -21,7 +21,7 @@ pub(crate) const KINDS: [(&str, PictureKind); 2] =
     [("svg", PictureKind::Svg), ("png", PictureKind::Png)];
 
 /// Width of a PNG, pixels.
-const PNG_WIDTH_PX: u32 = 1600;
+pub(crate) const PNG_WIDTH_PX: u32 = 1600;
 
 /// The picture of an answer, with or without a path.
 pub(crate) fn of(
@@ -30,11 +30,7 @@ pub(crate) fn of(
     outcome: &Outcome,
     layout: Layout,
 ) -> Picture {
-    let pose = |ends: Option<[f64; 3]>| {
-        let [x, y, heading] = ends.unwrap_or_default();
-        Pose2::new(x, y, heading)
-    };
-    let request = answer.provenance.request.clone().unwrap_or_default();
+    let [start, goal] = ends(answer);
     let (path, report) = match outcome {
         Outcome::Found(plan) => (Some(&plan.path), Some(&*plan.certificate)),
         Outcome::NotFound(failure) => {
@@ -49,22 +45,33 @@ pub(crate) fn of(
     let plan = PlanPicture {
         map: &ground.map,
         vehicle: &ground.vehicle.vehicle,
-        start: pose(request.start),
-        goal: pose(request.goal),
+        start,
+        goal,
         path,
         profile: &profile,
         tightest: report.map(|r| {
             let place = contact(obstacles, &ground.vehicle.vehicle, r.tightest);
             (place, r.min_clearance_m)
         }),
-        title: &format!(
-            "{}: {}",
-            ground.record.name,
-            answer.status.replace('_', " ")
-        ),
+        title: &title(ground, answer),
         caption: &caption(answer, &ground.vehicle.vehicle),
     };
     plan_picture_in(&plan, layout)
+}
+
+/// Start and goal of the request.
+pub(crate) fn ends(answer: &Answer) -> [Pose2; 2] {
+    let request = answer.provenance.request.clone().unwrap_or_default();
+    [request.start, request.goal].map(|end| {
+        let [x, y, heading] = end.unwrap_or_default();
+        Pose2::new(x, y, heading)
+    })
+}
+
+/// The map, and how the query ended.
+pub(crate) fn title(ground: &Ground, answer: &Answer) -> String {
+    let status = answer.status.replace('_', " ");
+    format!("{}: {status}", ground.record.name)
 }
 
 /// The place of an obstacle that the vehicle comes nearest to.

@@ -2,11 +2,15 @@
 
 use formicar::geometry::{Point2, Pose2};
 use formicar::map::{BitGrid, Cell, GridFrame, OccupancyGrid};
+use formicar::numeric::Seed;
 use formicar::path::{CurvePath, CurveSegment, Direction, GridPath, WaypointPath};
+use formicar::planner::{Planner, PlannerConfig, PlannerName, Stages};
+use formicar::progress::{AntFrame, AntFrames, Traffic};
 use formicar::render::{
-    CellStyle, Chart, DrivePicture, Limit, Picture, PlanPicture, ProfilePoint, Ribbon, Scene,
-    Series, drive_picture, palette, plan_picture,
+    CellStyle, Chart, ColonyPicture, DrivePicture, Limit, Picture, PlanPicture, ProfilePoint,
+    Ribbon, Scene, Series, colony_film, colony_picture, drive_picture, palette, plan_picture,
 };
+use formicar::scenario::Request;
 use formicar::tracking::{StartOffset, TrackingConfig, track};
 use formicar::vehicle::Vehicle;
 use proptest::prelude::*;
@@ -204,6 +208,132 @@ fn one_row_of_cells_and_huge_frames_are_drawn() {
     }
 }
 
+/// A colony that found its way around a pocket, and what an observer kept of it.
+fn colony(n_iterations: u32) -> (OccupancyGrid, Stages, AntFrames) {
+    let rows = [
+        "............",
+        "...######...",
+        "........#...",
+        "........#...",
+        "...######...",
+        "............",
+    ];
+    let map = OccupancyGrid::from_rows(&rows, 1.0).unwrap();
+    let mut config = PlannerConfig::of(PlannerName::Lei2020);
+    (config.colony.n_ants, config.colony.n_iterations) = (30, n_iterations);
+    let mut ants = AntFrames::new(12, 6);
+    let request = Request::new(Pose2::new(0.5, 3.0, 0.0), Pose2::new(11.5, 3.0, 0.0));
+    let mut planner = Planner::new(&map, Vehicle::preset("point").unwrap(), config).unwrap();
+    let outcome = planner.plan(&request, Seed(3), &mut ants).unwrap();
+    (map, outcome.found().unwrap().stages, ants)
+}
+
+fn colony_of<'a>(
+    map: &'a OccupancyGrid,
+    vehicle: &'a Vehicle,
+    (stages, frames): (&'a Stages, &'a [AntFrame]),
+) -> ColonyPicture<'a> {
+    ColonyPicture {
+        map,
+        vehicle,
+        start: Pose2::new(0.5, 3.0, 0.0),
+        goal: Pose2::new(11.5, 3.0, 0.0),
+        stages,
+        frames,
+        path: None,
+        title: "ants",
+        caption: "around a pocket",
+    }
+}
+
+#[test]
+fn a_colony_is_drawn_with_ants_nodes_and_convergence() {
+    let (map, stages, ants) = colony(20);
+    let vehicle = Vehicle::lei2020();
+    let picture = || colony_picture(&colony_of(&map, &vehicle, (&stages, ants.frames())));
+    let svg = picture().to_svg();
+    check(&svg);
+    for words in [
+        "closed U-shape",
+        "pheromone, log scale",
+        "ants that arrived",
+        "redundant node",
+        "node",
+        "best so far",
+        "evaporation ρ",
+    ] {
+        assert!(svg.contains(&format!("\"{words}\"")), "{words}");
+    }
+    assert_eq!(svg.matches("\"iteration 1: ").count(), 1);
+    assert_eq!(svg.matches("\"iteration 20: ").count(), 1);
+    assert_eq!(picture().panels.len(), 6);
+    assert_eq!(svg, picture().to_svg());
+}
+
+#[test]
+fn a_colony_that_never_walked_shows_its_ground() {
+    let (vehicle, stages) = (Vehicle::lei2020(), Stages::default());
+    let map = room();
+    let colony = colony_of(&map, &vehicle, (&stages, &[]));
+    let picture = colony_picture(&colony);
+    assert!(picture.charts.is_empty() && picture.panels.is_empty());
+    check(&picture.to_svg());
+    assert!(colony_film(&colony).is_empty());
+}
+
+#[test]
+fn more_ants_are_darker_and_wider() {
+    let line = |n_passed: u32| {
+        let cells = [Cell::new(1, 1), Cell::new(2, 1)];
+        let mut scene = Scene::new(&room());
+        scene.traffic(&[Traffic { cells, n_passed }], 500, ("", palette::GOAL));
+        let svg = picture(scene).to_svg();
+        let document = roxmltree::Document::parse(&svg).unwrap();
+        let color = palette::GOAL.to_string();
+        let drawn = document.descendants();
+        let line = drawn.filter(|n| n.attribute("stroke") == Some(&color));
+        let number = |name: &str| line.clone().next()?.attribute(name)?.parse::<f64>().ok();
+        ["stroke-opacity", "stroke-width"].map(|name| number(name).unwrap())
+    };
+    let lines = [1, 5, 50, 500].map(line);
+    for pair in lines.windows(2) {
+        assert!(
+            pair[0][0] < pair[1][0] && pair[0][1] < pair[1][1],
+            "{lines:?}"
+        );
+    }
+    assert_eq!(line(500), line(5000), "passages back and forth");
+}
+
+#[cfg(feature = "gif-pictures")]
+#[test]
+fn a_film_shows_every_kept_iteration_and_the_result() {
+    use formicar::render::to_gif;
+    let (map, stages, ants) = colony(8);
+    let vehicle = Vehicle::lei2020();
+    let film = colony_film(&colony_of(&map, &vehicle, (&stages, ants.frames())));
+    let file = to_gif(&film, 300).unwrap();
+    assert_eq!(file, to_gif(&film, 300).unwrap());
+    assert!(to_gif(&[], 300).is_err() && to_gif(&film, 0).is_err());
+
+    let mut options = gif::DecodeOptions::new();
+    options.set_color_output(gif::ColorOutput::RGBA);
+    let mut decoder = options.read_info(&file[..]).unwrap();
+    let page = usize::from(decoder.width()) * usize::from(decoder.height());
+    let mut delays = Vec::new();
+    while let Some(frame) = decoder.read_next_frame().unwrap() {
+        if delays.is_empty() {
+            assert_eq!(
+                (frame.buffer.len(), &frame.buffer[..3]),
+                (4 * page, &[255; 3][..])
+            );
+            assert!(frame.buffer.chunks(4).all(|pixel| pixel[3] == 255));
+        }
+        delays.push(frame.delay);
+    }
+    assert_eq!(delays, [12, 12, 12, 12, 12, 12, 12, 12, 150]);
+}
+
 #[cfg(feature = "png-pictures")]
 #[test]
 fn a_png_has_the_width_asked_for() {
@@ -242,6 +372,13 @@ proptest! {
         let place = Point2::new(numbers[0], numbers[1]);
         let mut scene = Scene::new(&room());
         scene.swept(&path, &Vehicle::sedan()).curve(&path).tightest(place, numbers[2]);
+        check(&picture(scene).to_svg());
+    }
+
+    #[test]
+    fn any_pheromone_is_drawn_or_left_out(values in prop::collection::vec(any::<f32>(), 40)) {
+        let mut scene = Scene::new(&room());
+        scene.log_heat_map(&values, "tau").heat_map(&values, "also");
         check(&picture(scene).to_svg());
     }
 

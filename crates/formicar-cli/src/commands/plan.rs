@@ -1,8 +1,9 @@
 //! `plan`: from a map and two poses to a certified path.
 
 use super::stdin;
+use crate::ants::{self, AntsKind};
 use crate::args::PlanArgs;
-use crate::clock::Clock;
+use crate::clock::{Clock, Watch};
 use crate::failure::{Ending, Failure, note};
 use crate::ground::{self, Ground};
 use crate::output::Target;
@@ -14,6 +15,7 @@ use formicar::numeric::Seed;
 use formicar::planner::{
     Answer, AnswerContext, Outcome, PlanError, Planner, PlannerConfig, RequestDocument, Timing,
 };
+use formicar::progress::AntFrames;
 use formicar::render::Layout;
 use std::io::Write;
 use std::sync::Arc;
@@ -26,12 +28,21 @@ enum OutKind {
     Poses,
 }
 
+/// What is to be written.
+struct Targets {
+    out: Option<Target<OutKind>>,
+    picture: Option<Target<PictureKind>>,
+    ants: Option<Target<AntsKind>>,
+}
+
 /// Everything that stands before the first request, warm.
 pub(super) struct Session {
     pub(super) planner: Planner,
     ground: Ground,
     obstacles: Arc<ObstacleMap>,
     config: PlannerConfig,
+    /// The ants of the last query, where they are wanted.
+    ants: Option<AntFrames>,
     map_setup_s: f64,
     begun: Instant,
 }
@@ -46,21 +57,25 @@ pub(super) struct Answered {
 /// Carries out `plan`.
 pub(crate) fn run(args: &PlanArgs, out: &mut impl Write) -> Result<Ending, Failure> {
     let begun = Instant::now();
-    let out_kinds = [("json", OutKind::Answer), ("csv", OutKind::Poses)];
-    let out_file = target(args.out.as_deref(), &out_kinds)?;
-    let picture_file = target(args.picture.as_deref(), &picture::KINDS)?;
+    let targets = Targets::of(args)?;
     let settings = settings::load(args.config.as_deref(), &args.set, args.planner)?;
     let ground = ground::load(&args.ground)?;
     let config = settings.for_motion(ground.vehicle.vehicle.motion());
+    if targets.ants.is_some() {
+        ants::check(config.planner)?;
+    }
     let defaults = request(args, &ground);
     let n_threads = args.threads.map_or(1, |n| n as usize);
     let mut session = Session::new(ground, config, begun)?.with_threads(n_threads);
+    if targets.ants.is_some() {
+        session.keep_ants();
+    }
     if args.stdin {
         return stdin::run(&mut session, &defaults, Seed(args.seed), out);
     }
     let answered = session.ask(&defaults, &RequestDocument::default(), Seed(args.seed));
     if answered.ending() != Ending::Refused {
-        write_files(&session, &answered, (out_file, picture_file))?;
+        write_files(&session, &answered, &targets)?;
     }
     if args.json {
         serde_json::to_writer(&mut *out, &answered.answer).map_err(std::io::Error::from)?;
@@ -72,6 +87,17 @@ pub(crate) fn run(args: &PlanArgs, out: &mut impl Write) -> Result<Ending, Failu
         summary::write(&answered.answer, vehicle, answered.n_improvements, out)?;
     }
     Ok(answered.ending())
+}
+
+impl Targets {
+    fn of(args: &PlanArgs) -> Result<Self> {
+        let out_kinds = [("json", OutKind::Answer), ("csv", OutKind::Poses)];
+        Ok(Self {
+            out: target(args.out.as_deref(), &out_kinds)?,
+            picture: target(args.picture.as_deref(), &picture::KINDS)?,
+            ants: target(args.ants.as_deref(), &ants::KINDS)?,
+        })
+    }
 }
 
 fn target<Kind: Copy>(
@@ -111,6 +137,7 @@ impl Session {
             planner,
             ground,
             config,
+            ants: None,
             map_setup_s: setup.elapsed().as_secs_f64(),
             begun,
         })
@@ -123,6 +150,12 @@ impl Session {
         }
     }
 
+    /// From now on keeps the ants of a query until the next.
+    fn keep_ants(&mut self) {
+        let frame = self.obstacles.frame();
+        self.ants = Some(AntFrames::new(frame.n_cols(), frame.n_rows()));
+    }
+
     /// Plans one request; what it leaves out comes from `defaults`.
     pub(super) fn ask(
         &mut self,
@@ -130,10 +163,14 @@ impl Session {
         defaults: &RequestDocument,
         seed: Seed,
     ) -> Answered {
-        let mut clock = Clock::begin();
+        let mut watch = Watch {
+            clock: Clock::begin(),
+            ants: self.ants.as_mut(),
+        };
         let planned = request.onto(defaults).map_err(PlanError::from);
         let request = planned.as_ref().ok().cloned();
-        let result = planned.and_then(|request| self.planner.plan(&request, seed, &mut clock));
+        let result = planned.and_then(|request| self.planner.plan(&request, seed, &mut watch));
+        let clock = watch.clock;
         let timing = Timing {
             map_setup_s: self.map_setup_s,
             first_feasible_s: clock.first_feasible_s(),
@@ -171,12 +208,8 @@ impl Answered {
     }
 }
 
-fn write_files(
-    session: &Session,
-    answered: &Answered,
-    (out, picture): (Option<Target<OutKind>>, Option<Target<PictureKind>>),
-) -> Result<()> {
-    if let Some(target) = out {
+fn write_files(session: &Session, answered: &Answered, targets: &Targets) -> Result<()> {
+    if let Some(target) = &targets.out {
         match (target.kind, &answered.answer.path) {
             (OutKind::Answer, _) => {
                 let mut json = serde_json::to_vec(&answered.answer)?;
@@ -184,23 +217,37 @@ fn write_files(
                 target.write(&json)?;
             }
             (OutKind::Poses, Some(path)) => target.write(path.poses_csv().as_bytes())?,
-            (OutKind::Poses, None) => {
-                note(&format!(
-                    "no path: {} is not written",
-                    target.path().display()
-                ));
-            }
+            (OutKind::Poses, None) => not_written("no path", target),
         }
     }
-    if let (Some(target), Ok(outcome)) = (picture, &answered.result) {
-        let ground = &session.ground;
-        let image = picture::of(
-            (ground, &session.obstacles),
-            &answered.answer,
-            outcome,
-            Layout::Page,
-        );
+    let Ok(outcome) = &answered.result else {
+        return Ok(());
+    };
+    if let Some(target) = &targets.picture {
+        let place = (&session.ground, &*session.obstacles);
+        let image = picture::of(place, &answered.answer, outcome, Layout::Page);
         target.write(&picture::encode(&image, target.kind)?)?;
     }
+    if let (Some(target), Some(kept)) = (&targets.ants, &session.ants) {
+        if kept.frames().is_empty() {
+            not_written("no ants walked", target);
+        } else {
+            let frames = kept.frames();
+            let file = ants::encode(
+                &session.ground,
+                (&answered.answer, outcome),
+                frames,
+                target.kind,
+            )?;
+            target.write(&file)?;
+        }
+    }
     Ok(())
+}
+
+fn not_written<Kind: Copy>(reason: &str, target: &Target<Kind>) {
+    note(&format!(
+        "{reason}: {} is not written",
+        target.path().display()
+    ));
 }

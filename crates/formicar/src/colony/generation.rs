@@ -125,6 +125,7 @@ impl Generation {
             steps: &self.steps,
             ends: &self.ends,
             arrived: &self.arrived,
+            best: self.best().map(|best| best.ant),
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::config::TrailLayout;
 use super::node::Node;
 use super::problem::{Ground, steps_in};
+use crate::progress::pheromone_by_cell;
 
 /// Pheromone of all cells, row by row, or of their steps, eight to a cell; not a number where no
 /// ant can go.
@@ -124,17 +125,6 @@ impl Trails {
         if self.layout == TrailLayout::Cells {
             return self.values;
         }
-        let mut cells = vec![f32::NAN; self.values.len() / 8];
-        for (cell, steps) in self.values.chunks(8).enumerate() {
-            let known = steps
-                .iter()
-                .zip(ground.offsets)
-                .filter(|(tau, _)| !tau.is_nan());
-            for (&tau, offset) in known {
-                let to = &mut cells[cell.wrapping_add_signed(offset)];
-                *to = to.max(tau);
-            }
-        }
-        cells
+        pheromone_by_cell(&self.values, ground.n_cols)
     }
 }

@@ -48,6 +48,8 @@ pub struct AntWays<'a> {
     pub ends: &'a [usize],
     /// Whether each ant reached the goal.
     pub arrived: &'a [bool],
+    /// The ant whose way costs least; none if none arrived.
+    pub best: Option<usize>,
 }
 
 impl AntWays<'_> {
@@ -58,8 +60,13 @@ impl AntWays<'_> {
 
     /// The way of an ant, whether it arrived or not.
     pub fn way(&self, ant: usize) -> GridPath {
+        path_of(self.start, self.steps(ant))
+    }
+
+    /// The steps of an ant.
+    pub fn steps(&self, ant: usize) -> &[u8] {
         let first = ant.checked_sub(1).map_or(0, |before| self.ends[before]);
-        path_of(self.start, &self.steps[first..self.ends[ant]])
+        &self.steps[first..self.ends[ant]]
     }
 }
 
@@ -102,6 +109,7 @@ mod tests {
             steps: &[0, 1, 4],
             ends: &[2, 2, 3],
             arrived: &[true, false, true],
+            best: None,
         };
         assert_eq!(ways.n_ants(), 3);
         let first = [Cell::new(1, 1), Cell::new(2, 1), Cell::new(3, 2)];

@@ -1,7 +1,9 @@
 //! How a run is watched, timed, limited and stopped; how it may end.
 
+mod frames;
 mod iteration;
 
+pub use frames::{AntFrame, AntFrames, Traffic, pheromone_by_cell};
 pub use iteration::{AntWays, ColonyView, IterationRecord, path_of};
 
 use crate::scenario::ErrorCode;

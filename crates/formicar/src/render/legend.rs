@@ -8,7 +8,7 @@ use super::ticks;
 use crate::geometry::Point2;
 
 const TEXT: Lettering = Lettering::new(13.0, palette::INK);
-pub(super) const LINE_PX: f64 = 24.0;
+const LINE_PX: f64 = 24.0;
 const SWATCH_PX: f64 = 26.0;
 const GAP_PX: f64 = 20.0;
 const HEAT_PX: f64 = 110.0;
@@ -20,8 +20,23 @@ pub(super) enum Swatch {
     Area(Color),
     Line(Color, Dash),
     Heat { low: f64, high: f64 },
-    Dot,
+    Dot(Dot),
     Ring,
+}
+
+/// A small disc with an edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Dot {
+    pub(super) fill: Color,
+    pub(super) pen: Color,
+    pub(super) radius_px: f64,
+}
+
+impl Dot {
+    pub(super) fn at(self, center: Point2) -> Element {
+        let disc = Element::circle(center, self.radius_px);
+        disc.fill(self.fill).pen(self.pen, 1.6)
+    }
 }
 
 /// Marks and their names, each once, in the order of their first use.
@@ -73,7 +88,7 @@ impl Legend {
 impl Swatch {
     fn width_px(self) -> f64 {
         match self {
-            Self::Cell(_) | Self::Ring | Self::Dot => 14.0,
+            Self::Cell(_) | Self::Ring | Self::Dot(_) => 14.0,
             Self::Area(_) | Self::Line(..) => SWATCH_PX,
             Self::Heat { .. } => HEAT_PX,
         }
@@ -100,11 +115,7 @@ impl Swatch {
                     None => line,
                 });
             }
-            Self::Dot => svg.add(
-                &Element::circle(center, 3.4)
-                    .fill(palette::PAGE)
-                    .pen(palette::INK, 1.6),
-            ),
+            Self::Dot(dot) => svg.add(&dot.at(center)),
             Self::Ring => svg.add(&Element::circle(center, 6.5).pen(palette::LIMIT, 2.2)),
             Self::Heat { low, high } => draw_heat(svg, left, (low, high)),
         }

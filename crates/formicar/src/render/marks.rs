@@ -1,7 +1,7 @@
 //! What moves on a map: drivable paths, swept ground, poses, and the tightest place.
 
 use super::Scene;
-use super::legend::Swatch;
+use super::legend::{Dot, Swatch};
 use super::palette::{self, Color};
 use super::style::{Dash, PoseMark, clearance_label};
 use super::svg::{Element, PathData};
@@ -47,10 +47,14 @@ impl Scene {
         }
         for pair in path.segments().windows(2) {
             if pair[0].direction != pair[1].direction {
-                let dot = Element::circle(self.view.to_px(pair[1].start.position()), 3.4);
-                self.body
-                    .add(&dot.fill(palette::PAGE).pen(palette::INK, 1.6));
-                self.legend.add("change of gear", Swatch::Dot);
+                let dot = Dot {
+                    fill: palette::PAGE,
+                    pen: palette::INK,
+                    radius_px: 3.4,
+                };
+                let at = self.view.to_px(pair[1].start.position());
+                self.body.add(&dot.at(at));
+                self.legend.add("change of gear", Swatch::Dot(dot));
             }
         }
         for pose in self.samples(path, 6.0) {
@@ -85,10 +89,7 @@ impl Scene {
 
     /// A vehicle at an end of the path, with an arrow along its heading.
     pub fn pose(&mut self, pose: Pose2, vehicle: &Vehicle, mark: PoseMark) -> &mut Self {
-        let (color, name) = match mark {
-            PoseMark::Start => (palette::START, "start"),
-            PoseMark::Goal => (palette::GOAL, "goal"),
-        };
+        let (color, name) = mark.look();
         let at = self.view.to_px(pose.position());
         let (_, high) = vehicle.footprint().bounds();
         let front_px = high.x * self.view.px_per_m();
@@ -100,13 +101,7 @@ impl Scene {
         if vehicle.motion() == Motion::Car {
             self.arrow(at, View::direction(pose.heading), reach_px, color);
         }
-        match mark {
-            PoseMark::Start => self.body.add(&Element::circle(at, 4.5).fill(color)),
-            PoseMark::Goal => {
-                let ring = Element::circle(at, 4.0).fill(palette::PAGE);
-                self.body.add(&ring.pen(color, 2.4));
-            }
-        }
+        self.end(pose.position(), mark);
         for (a, b) in vehicle.footprint().placed(pose).edges() {
             for i in 0..8 {
                 let place = a.lerp(b, f64::from(i) / 8.0);
@@ -127,6 +122,20 @@ impl Scene {
             self.body.add(&dot.pen(palette::INK, 1.8));
             self.labels.name(at, 9.0, (name, palette::INK));
         }
+        self
+    }
+
+    /// Marks an end of the path by a dot alone: filled where the vehicle stands, a ring where it
+    /// should go.
+    pub(super) fn end(&mut self, place: Point2, mark: PoseMark) -> &mut Self {
+        let (at, (color, _)) = (self.view.to_px(place), mark.look());
+        self.body.add(&match mark {
+            PoseMark::Start => Element::circle(at, 4.5).fill(color),
+            PoseMark::Goal => {
+                let ring = Element::circle(at, 4.0).fill(palette::PAGE);
+                ring.pen(color, 2.4)
+            }
+        });
         self
     }
 
@@ -243,6 +252,16 @@ fn thinned(samples: &[PathPose], spacing_m: f64) -> Vec<Pose2> {
         }
     }
     poses
+}
+
+impl PoseMark {
+    /// Color and name.
+    fn look(self) -> (Color, &'static str) {
+        match self {
+            Self::Start => (palette::START, "start"),
+            Self::Goal => (palette::GOAL, "goal"),
+        }
+    }
 }
 
 pub(super) fn gear_color(direction: Direction) -> Color {

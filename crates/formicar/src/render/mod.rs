@@ -1,13 +1,20 @@
-//! Pictures: scenes of maps and paths, strip charts, as SVG and (feature `png-pictures`) PNG.
+//! Pictures: scenes of maps and paths, ants, charts, as SVG and (feature `png-pictures`) PNG;
+//! films as GIF (feature `gif-pictures`).
 //!
 //! Renderers draw what they are handed and compute nothing about it: clearances, profiles and
 //! limits come in as values. The same input gives the same bytes. Text is drawn as strokes, so
 //! that no font is needed and a picture looks the same everywhere.
 
+mod ants;
 mod cells;
 mod chart;
+mod colony;
+mod convergence;
 mod drive;
 mod focus;
+#[cfg(feature = "gif-pictures")]
+mod gif;
+mod heat;
 mod labels;
 mod legend;
 mod lettering;
@@ -19,6 +26,8 @@ mod plan;
 mod plot;
 #[cfg(feature = "png-pictures")]
 mod png;
+#[cfg(feature = "gif-pictures")]
+mod quantize;
 mod scene;
 mod strips;
 mod style;
@@ -27,7 +36,11 @@ mod ticks;
 mod view;
 
 pub use chart::{Axis, Band, Chart, Limit, Ribbon, SERIES_COLORS, Series, Side};
+pub use colony::{ColonyPicture, colony_film, colony_picture};
+pub use convergence::convergence_charts;
 pub use drive::{DrivePicture, drive_charts, drive_picture};
+#[cfg(feature = "gif-pictures")]
+pub use gif::to_gif;
 pub use palette::Color;
 pub use picture::Picture;
 pub use plan::{PlanPicture, plan_picture, plan_picture_in};

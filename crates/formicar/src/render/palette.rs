@@ -84,14 +84,15 @@ pub const LIMIT: Color = Color::rgb(0xd8, 0x1e, 0x3f);
 /// A path over cells or way points, before it is drivable.
 pub const WAYPOINTS: Color = Color::rgb(0x8c, 0x5a, 0x14);
 
-/// A perceptually uniform scale from pale (0) to dark (1).
+/// A perceptually uniform scale from pale yellow (0) to dark red (1), colors that nothing else on a
+/// map has.
 ///
 /// Lightness, hue and chroma run linearly in `OKLab` (Ottosson 2020, "A perceptual color space for
 /// image processing"), so that equal steps look equal and greyscale keeps the order.
 pub fn heat(t: f64) -> Color {
     let t = if t.is_nan() { 0.0 } else { t.clamp(0.0, 1.0) };
-    let (lightness, chroma) = (0.96 - 0.62 * t, 0.055 + 0.085 * t);
-    let hue = (105.0 + 195.0 * t).to_radians();
+    let (lightness, chroma) = (0.97 - 0.47 * t, 0.05 + 0.12 * t);
+    let hue = (105.0 - 80.0 * t).to_radians();
     from_oklab(lightness, chroma * hue.cos(), chroma * hue.sin())
 }
 

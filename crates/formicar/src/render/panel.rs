@@ -30,16 +30,22 @@ impl Scene {
     pub(super) fn draw(&self, svg: &mut Svg, at: Point2) {
         let panel = self.panel_px();
         let corner = at + Point2::new(LEFT_PX, 0.0);
-        let mut inner = self.body.clone();
-        self.labels.draw(&mut inner, panel);
-        // A nested document clips what leaves the panel.
-        svg.wrap(&Element::rectangle(corner, panel).rename("svg"), &inner);
-        svg.add(&Element::rectangle(corner, panel).pen(palette::RULE, 1.0));
+        self.draw_bare(svg, corner);
         self.draw_coordinates(svg, corner);
 
         let row = corner + Point2::new(0.0, panel.y + BELOW_PX + LEGEND_GAP_PX);
         let indent_px = self.draw_scale_bar(svg, row);
         self.legend.draw(svg, row, (panel.x, indent_px));
+    }
+
+    /// Draws the panel alone, without coordinates and legend.
+    pub(super) fn draw_bare(&self, svg: &mut Svg, corner: Point2) {
+        let panel = self.panel_px();
+        let mut inner = self.contents();
+        self.labels.draw(&mut inner, panel);
+        // A nested document clips what leaves the panel.
+        svg.wrap(&Element::rectangle(corner, panel).rename("svg"), &inner);
+        svg.add(&Element::rectangle(corner, panel).pen(palette::RULE, 1.0));
     }
 
     /// The legend alone is dropped, where another scene of the same picture shows it.

@@ -15,6 +15,8 @@ pub(super) const COLUMN_PX: f64 = 460.0;
 const CHARTS_ALONE_PX: f64 = 900.0;
 const TITLE: Lettering = Lettering::new(22.0, palette::INK).bold();
 const CAPTION: Lettering = Lettering::new(14.0, palette::MUTED);
+const PANEL_HEAD_PX: f64 = 38.0;
+const SMALL: Lettering = Lettering::new(13.0, palette::INK);
 const DETAIL: Lettering = Lettering::new(13.0, palette::INK).bold();
 
 /// A scene with its title above and its charts below or beside it.
@@ -30,6 +32,8 @@ pub struct Picture {
     pub detail: Option<(Scene, String)>,
     /// Charts, stacked.
     pub charts: Vec<Chart>,
+    /// Small scenes and their headings, in rows below everything; their legend is that of the map.
+    pub panels: Vec<(Scene, String)>,
     /// How its parts are put together; scenes bring their own size.
     pub layout: Layout,
 }
@@ -83,7 +87,16 @@ impl Picture {
                 }
             }
         };
+        let corner = Point2::new(top.x + LEFT_PX, bottom);
+        let bottom = self.draw_panels(svg, corner, width_px - self.margin_px());
         Point2::new(width_px, bottom + self.margin_px())
+    }
+
+    /// The largest side of small scenes of which so many stand in a row.
+    pub(super) fn panel_side_px(&self, n_in_row: usize) -> f64 {
+        let row_px = self.width_px() - 2.0 * self.margin_px() - LEFT_PX;
+        let gaps_px = GAP_PX * (n_in_row - 1) as f64;
+        (row_px - gaps_px) / n_in_row as f64
     }
 
     fn charts_below(&self, scene: &Scene) -> bool {
@@ -154,7 +167,7 @@ impl Picture {
     fn draw_charts(&self, svg: &mut Svg, at: Point2, width_px: f64) -> f64 {
         self.charts.iter().fold(at.y, |y, chart| {
             chart.draw(svg, Point2::new(at.x, y), width_px);
-            y + chart.full_height_px()
+            y + chart.full_height_px(width_px)
         })
     }
 
@@ -165,5 +178,23 @@ impl Picture {
         DETAIL.write(svg, at + Point2::new(LEFT_PX, 16.0), heading);
         detail.draw(svg, at + Point2::new(0.0, 24.0));
         at.y + 24.0 + detail.size_px().y
+    }
+
+    /// Small scenes in rows up to a right edge; returns where they end.
+    fn draw_panels(&self, svg: &mut Svg, at: Point2, right_px: f64) -> f64 {
+        let mut corner = at;
+        let mut bottom = at.y;
+        for (scene, heading) in &self.panels {
+            let size = scene.panel_px();
+            if corner.x > at.x && corner.x + size.x > right_px + 0.5 {
+                corner = Point2::new(at.x, bottom);
+            }
+            let base = corner + Point2::new(0.0, PANEL_HEAD_PX - 8.0);
+            SMALL.write(svg, base, heading);
+            scene.draw_bare(svg, corner + Point2::new(0.0, PANEL_HEAD_PX));
+            bottom = bottom.max(corner.y + PANEL_HEAD_PX + size.y);
+            corner.x += size.x + GAP_PX;
+        }
+        bottom
     }
 }

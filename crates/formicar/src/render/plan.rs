@@ -57,6 +57,7 @@ pub fn plan_picture_in(plan: &PlanPicture, layout: Layout) -> Picture {
         detail,
         charts,
         layout,
+        ..Picture::default()
     }
 }
 

@@ -1,7 +1,7 @@
 //! A chart on the page.
 
 use super::chart::{Chart, Series, Side};
-use super::legend::{LINE_PX, Legend, Swatch};
+use super::legend::{Legend, Swatch};
 use super::lettering::{Anchor, Lettering};
 use super::palette;
 use super::panel::LEFT_PX;
@@ -30,22 +30,22 @@ struct Plot<'a> {
 }
 
 impl Chart {
-    /// Height on the page, with headings and axes.
-    pub(super) fn full_height_px(&self) -> f64 {
-        let legend = if self.legend_line() { LINE_PX } else { 0.0 };
-        HEAD_PX + self.plot_height_px() + self.below_px() + legend
+    /// Height on the page at a width, with headings, axes and legend.
+    pub(super) fn full_height_px(&self, width_px: f64) -> f64 {
+        let legend_px = if self.legend_line() {
+            self.legend().height_px(self.plot_width_px(width_px), 0.0)
+        } else {
+            0.0
+        };
+        HEAD_PX + self.plot_height_px() + self.below_px() + legend_px
     }
 
     /// Draws the chart with its upper left corner at a point of the page.
     pub(super) fn draw(&self, svg: &mut Svg, at: Point2, width_px: f64) {
-        let right_px = self.y_right.as_ref().map_or(0.0, |_| RIGHT_AXIS_PX);
         let plot = Plot {
             chart: self,
             corner: at + Point2::new(LEFT_PX, HEAD_PX),
-            size: Point2::new(
-                (width_px - LEFT_PX - right_px).max(40.0),
-                self.plot_height_px(),
-            ),
+            size: Point2::new(self.plot_width_px(width_px), self.plot_height_px()),
             x: self.x_range(),
             left: self.y_range(Side::Left),
             right: self.y_range(Side::Right),
@@ -59,6 +59,11 @@ impl Chart {
             let place = plot.corner + Point2::new(0.0, below);
             self.legend().draw(svg, place, (plot.size.x, 0.0));
         }
+    }
+
+    fn plot_width_px(&self, width_px: f64) -> f64 {
+        let right_px = self.y_right.as_ref().map_or(0.0, |_| RIGHT_AXIS_PX);
+        (width_px - LEFT_PX - right_px).max(40.0)
     }
 
     fn plot_height_px(&self) -> f64 {

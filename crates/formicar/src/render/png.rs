@@ -7,7 +7,7 @@ use thiserror::Error;
 /// Most pixels of a picture: 2^28, a gigabyte of memory.
 const MAX_PIXELS: f64 = 268_435_456.0;
 
-/// Why a picture could not become a PNG.
+/// Why a picture could not become pixels.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum RenderError {
@@ -22,6 +22,17 @@ pub enum RenderError {
     /// The rasterizer failed on a picture of ours.
     #[error("the picture could not be rasterized: {0}")]
     Rasterize(String),
+    /// A film that a GIF cannot hold.
+    #[cfg(feature = "gif-pictures")]
+    #[error("a film of {n_pictures} pictures, {width_px} px wide, does not fit a GIF: {reason}")]
+    Film {
+        /// How many pictures.
+        n_pictures: usize,
+        /// The width asked for.
+        width_px: u32,
+        /// Why.
+        reason: String,
+    },
 }
 
 impl Picture {
@@ -30,10 +41,16 @@ impl Picture {
     /// # Errors
     /// A width of 0, or one that makes an image of more than 2^28 pixels.
     pub fn to_png(&self, width_px: u32) -> Result<Vec<u8>, RenderError> {
-        let failed = |error: String| RenderError::Rasterize(error);
+        let pixels = self.rasterized(width_px)?;
+        let png = pixels.encode_png();
+        png.map_err(|error| RenderError::Rasterize(error.to_string()))
+    }
+
+    /// Its pixels, all of them opaque.
+    pub(super) fn rasterized(&self, width_px: u32) -> Result<tiny_skia::Pixmap, RenderError> {
         let options = usvg::Options::default();
-        let tree =
-            usvg::Tree::from_str(&self.to_svg(), &options).map_err(|e| failed(e.to_string()))?;
+        let tree = usvg::Tree::from_str(&self.to_svg(), &options)
+            .map_err(|error| RenderError::Rasterize(error.to_string()))?;
         let size = tree.size();
         let ratio = f64::from(size.height()) / f64::from(size.width());
         let limit_px = (MAX_PIXELS / ratio).sqrt() as u32;
@@ -46,6 +63,6 @@ impl Picture {
         let scale = width_px as f32 / size.width();
         let transform = tiny_skia::Transform::from_scale(scale, scale);
         resvg::render(&tree, transform, &mut pixels.as_mut());
-        pixels.encode_png().map_err(|e| failed(e.to_string()))
+        Ok(pixels)
     }
 }

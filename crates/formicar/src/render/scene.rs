@@ -1,6 +1,7 @@
 //! A map with layers on it, north up.
 
 use super::cells::CellLayer;
+use super::heat::{Heat, HeatScale};
 use super::labels::Labels;
 use super::legend::{Legend, Swatch};
 use super::palette::{self, Color};
@@ -26,13 +27,20 @@ const WIDE_PANEL_PX: f64 = 720.0;
 /// Cells of at least this size show their grid lines.
 const GRID_LINES_FROM_PX: f64 = 8.0;
 
-/// A map with layers: each call draws over what is there already.
+/// Powers of ten that a logarithmic heat map shows.
+const LOG_HEAT_DECADES: f64 = 3.0;
+
+/// A map with layers: each call draws over what is there already, but cells stay below lines and
+/// marks.
 ///
 /// World coordinates throughout; north is up, and a map with yaw stands askew.
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub(super) frame: GridFrame,
     pub(super) view: View,
+    /// Cells.
+    ground: Svg,
+    /// Lines and marks.
     pub(super) body: Svg,
     pub(super) labels: Labels,
     pub(super) legend: Legend,
@@ -61,6 +69,12 @@ impl Scene {
         Self::with_view(map, View::fit(low, high, Point2::new(side_px, side_px)))
     }
 
+    /// The whole of a map in a panel of at most a size.
+    pub(super) fn small(map: &OccupancyGrid, max_px: Point2) -> Self {
+        let (low, high) = frame_bounds(map.frame());
+        Self::with_view(map, View::fit(low, high, max_px))
+    }
+
     /// Side of the panel of a detail that goes with this scene.
     pub(super) fn detail_side_px(&self, layout: Layout) -> f64 {
         match layout {
@@ -79,6 +93,7 @@ impl Scene {
         let mut scene = Self {
             frame: *map.frame(),
             view,
+            ground: Svg::default(),
             body: Svg::default(),
             labels: Labels::default(),
             legend: Legend::default(),
@@ -103,35 +118,39 @@ impl Scene {
         let layer = CellLayer::new(place.0, place.1, |i| {
             u8::from(set.contains((i % n_cols) as i64, (i / n_cols) as i64))
         });
-        layer.draw(&mut self.body, place, &[style.color]);
+        layer.draw(&mut self.ground, place, &[style.color]);
         self.legend.add(&style.label, Swatch::Cell(style.color));
-        self.draw_grid_lines();
         self
     }
 
     /// Colors cells by their value, row-major from the lowest row: pale for the smallest, dark
     /// for the largest. Values that are not finite, and cells without one, stay as they are.
     pub fn heat_map(&mut self, values: &[f32], label: &str) -> &mut Self {
-        let finite = values.iter().copied().filter(|v| v.is_finite());
-        let (low, high) = finite.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), v| {
-            (low.min(v), high.max(v))
-        });
-        if low > high {
+        self.heat(values, label, HeatScale::Linear)
+    }
+
+    /// A heat map on which equal ratios look equal, over three powers of ten below the largest
+    /// value; cells of less stay as they are. The legend says so.
+    pub fn log_heat_map(&mut self, values: &[f32], label: &str) -> &mut Self {
+        let max_decades = LOG_HEAT_DECADES;
+        let label = format!("{label}, log scale");
+        self.heat(values, &label, HeatScale::Log { max_decades })
+    }
+
+    fn heat(&mut self, values: &[f32], label: &str, scale: HeatScale) -> &mut Self {
+        let Some(heat) = Heat::new(values, scale) else {
             return self;
-        }
-        let (low, high) = (f64::from(low), f64::from(high));
-        let range = if high > low { high - low } else { 1.0 };
+        };
         let place = (&self.frame, &self.view);
-        let layer = CellLayer::new(place.0, place.1, |i| match values.get(i) {
-            Some(v) if v.is_finite() => 1 + (254.0 * (f64::from(*v) - low) / range) as u8,
-            _ => 0,
+        let layer = CellLayer::new(place.0, place.1, |i| {
+            let share = values.get(i).and_then(|&v| heat.share(f64::from(v)));
+            share.map_or(0, |share| 1 + (254.0 * share) as u8)
         });
         let colors: Vec<Color> = (0..255)
             .map(|i| palette::heat(f64::from(i) / 254.0))
             .collect();
-        layer.draw(&mut self.body, place, &colors);
-        self.legend.add(label, Swatch::Heat { low, high });
-        self.draw_grid_lines();
+        layer.draw(&mut self.ground, place, &colors);
+        self.legend.add(label, heat.swatch());
         self
     }
 
@@ -179,9 +198,9 @@ impl Scene {
     fn draw_map(&mut self, map: &OccupancyGrid) {
         let panel = self.view.size_px();
         let off_map = Element::rectangle(Point2::default(), panel).fill(palette::OFF_MAP);
-        self.body.add(&off_map);
+        self.ground.add(&off_map);
         let ground = Element::path(self.map_outline()).fill(palette::FREE);
-        self.body.add(&ground);
+        self.ground.add(&ground);
 
         // Graded cells take the levels of their cost; the unknown wins over them, obstacles over all.
         let (unknown, obstacle) = (100, 101);
@@ -196,11 +215,18 @@ impl Scene {
         let colors: Vec<Color> = graded
             .chain([palette::UNKNOWN, palette::OBSTACLE])
             .collect();
-        layer.draw(&mut self.body, place, &colors);
+        layer.draw(&mut self.ground, place, &colors);
         self.name_ground(&layer.levels_in_use());
-        self.draw_grid_lines();
+    }
+
+    /// Everything within the panel but the labels.
+    pub(super) fn contents(&self) -> Svg {
+        let mut contents = self.ground.clone();
+        self.draw_grid_lines(&mut contents);
         let edge = Element::path(self.map_outline()).pen(palette::RULE, 1.0);
-        self.body.add(&edge);
+        contents.add(&edge);
+        contents.append(&self.body);
+        contents
     }
 
     fn name_ground(&mut self, used: &[bool; 256]) {
@@ -220,7 +246,7 @@ impl Scene {
         outline
     }
 
-    fn draw_grid_lines(&mut self) {
+    fn draw_grid_lines(&self, svg: &mut Svg) {
         let step_m = self.frame.resolution_m();
         if step_m * self.view.px_per_m() < GRID_LINES_FROM_PX {
             return;
@@ -240,6 +266,6 @@ impl Scene {
             lines.line_to(at(cols.end, row));
         }
         let lines = Element::path(lines).pen(palette::MUTED, 0.5);
-        self.body.add(&lines.text("stroke-opacity", "0.22"));
+        svg.add(&lines.text("stroke-opacity", "0.22"));
     }
 }

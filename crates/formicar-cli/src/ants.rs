@@ -1,0 +1,102 @@
+//! Pictures and films of the ants that found a path, or did not.
+
+use crate::ground::Ground;
+use crate::picture::{self, PNG_WIDTH_PX};
+use crate::summary::counted;
+use anyhow::{Result, bail};
+use formicar::planner::{Answer, Outcome, PlannerName, Stages};
+use formicar::progress::AntFrame;
+use formicar::render::{ColonyPicture, colony_film, colony_picture, to_gif};
+use formicar::smoothing::{CornerRecord, Rounding};
+
+/// What `--ants` writes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum AntsKind {
+    Svg,
+    Png,
+    Gif,
+}
+
+/// File extensions and what they hold.
+pub(crate) const KINDS: [(&str, AntsKind); 3] = [
+    ("svg", AntsKind::Svg),
+    ("png", AntsKind::Png),
+    ("gif", AntsKind::Gif),
+];
+
+/// Width of a film, pixels.
+const FILM_WIDTH_PX: u32 = 560;
+
+/// Whether a planner has ants.
+pub(crate) fn check(planner: PlannerName) -> Result<()> {
+    if planner.colony().is_none() {
+        bail!(
+            "--ants: {} is no colony and has no ants; hint: --planner lei2020 (see `list planners`)",
+            planner.name()
+        );
+    }
+    Ok(())
+}
+
+/// The file of an answer by a colony.
+pub(crate) fn encode(
+    ground: &Ground,
+    (answer, outcome): (&Answer, &Outcome),
+    frames: &[AntFrame],
+    kind: AntsKind,
+) -> Result<Vec<u8>> {
+    let (path, stages) = match outcome {
+        Outcome::Found(plan) => (Some(&plan.path), &plan.stages),
+        Outcome::NotFound(failure) => {
+            let refused = failure.refused.as_ref();
+            (refused.map(|(path, _)| path), &failure.stages)
+        }
+    };
+    let [start, goal] = picture::ends(answer);
+    let colony = ColonyPicture {
+        map: &ground.map,
+        vehicle: &ground.vehicle.vehicle,
+        start,
+        goal,
+        stages,
+        frames,
+        path,
+        title: &picture::title(ground, answer),
+        caption: &caption(answer, stages),
+    };
+    Ok(match kind {
+        AntsKind::Svg => colony_picture(&colony).to_svg().into_bytes(),
+        AntsKind::Png => colony_picture(&colony).to_png(PNG_WIDTH_PX)?,
+        AntsKind::Gif => to_gif(&colony_film(&colony), FILM_WIDTH_PX)?,
+    })
+}
+
+/// Key numbers of a run, and why there is no path where there is none.
+fn caption(answer: &Answer, stages: &Stages) -> String {
+    let mut parts = Vec::new();
+    if let Some(run) = &stages.colony {
+        let n_iterations = counted(run.history.iterations.len(), "iteration");
+        parts.push(match run.history.converged_after() {
+            Some(n) => format!("{n_iterations}, the best way after {n}"),
+            None => n_iterations,
+        });
+    }
+    if let Some(path) = &stages.grid_path {
+        let (n_cells, n_nodes) = (path.cells.len(), stages.nodes.len());
+        parts.push(format!("{n_cells} cells, {n_nodes} nodes"));
+    }
+    let is_turned = |corner: &&CornerRecord| matches!(corner.rounding, Rounding::TwoTurning(_));
+    let n_turned = stages.corners.iter().filter(is_turned).count();
+    if !stages.corners.is_empty() {
+        let n_corners = stages.corners.len();
+        parts.push(format!("{n_turned} of {n_corners} corners by 2-turning"));
+    }
+    if let Some(metrics) = &answer.metrics {
+        parts.push(format!("{:.2} m", metrics.length_m));
+    }
+    let numbers = format!("{}: {}", answer.planner, parts.join(", "));
+    match &answer.reason {
+        Some(reason) => format!("{numbers}; {reason}"),
+        None => numbers,
+    }
+}

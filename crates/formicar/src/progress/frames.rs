@@ -1,0 +1,264 @@
+//! Iterations of a colony kept for pictures: some of each run, however long it is.
+
+use super::{AntWays, ColonyView, Event, IterationRecord, Observer};
+use crate::map::{Cell, STEPS};
+use crate::path::GridPath;
+
+/// How often ants of an iteration went between two neighboring cells, in either direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Traffic {
+    /// The two cells, the second north of the first, or east.
+    pub cells: [Cell; 2],
+    /// Passages.
+    pub n_passed: u32,
+}
+
+/// What is kept of an iteration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AntFrame {
+    /// What it came to.
+    pub record: IterationRecord,
+    /// Where the ants went that reached the goal, by cells.
+    pub arrived: Vec<Traffic>,
+    /// Where the others went.
+    pub lost: Vec<Traffic>,
+    /// The way of least cost; none if no ant arrived.
+    pub best: Option<GridPath>,
+    /// Pheromone after the update by cell, row by row; not a number where no ant can go.
+    pub pheromone: Vec<f32>,
+}
+
+/// Keeps iterations as they go by: the 1st, 2nd, 5th, 10th, 20th and so on, every k-th, and the
+/// last.
+///
+/// k doubles whenever there are more than [`AntFrames::MAX_FRAMES`], or fewer where they would
+/// hold more than [`AntFrames::MAX_CELLS`] together.
+#[derive(Clone, Debug)]
+pub struct AntFrames {
+    grid: Grid,
+    stride: u32,
+    frames: Vec<AntFrame>,
+}
+
+impl AntFrames {
+    /// Most iterations kept, but for the first few.
+    pub const MAX_FRAMES: usize = 60;
+    /// Most cells of all that is kept.
+    pub const MAX_CELLS: usize = 1 << 24;
+
+    /// For runs on a grid of so many columns and rows.
+    pub fn new(n_cols: usize, n_rows: usize) -> Self {
+        Self {
+            grid: Grid(n_cols, n_rows),
+            stride: 1,
+            frames: Vec::new(),
+        }
+    }
+
+    /// What was kept, in the order of the iterations.
+    pub fn frames(&self) -> &[AntFrame] {
+        &self.frames
+    }
+
+    /// Looks at an iteration; what a run before it has left is forgotten.
+    pub fn keep(&mut self, view: &ColonyView) {
+        if view.record.iteration == 0 {
+            self.frames.clear();
+            self.stride = 1;
+        }
+        let last = self.frames.last();
+        if last.is_some_and(|last| !self.is_kept(last)) {
+            self.frames.pop();
+        }
+        self.frames.push(AntFrame::of(view, self.grid));
+        let n_most = Self::MAX_CELLS / self.grid.n_cells().max(1);
+        if self.frames.len() > n_most.clamp(4, Self::MAX_FRAMES) {
+            self.stride = self.stride.saturating_mul(2);
+            let mut frames = std::mem::take(&mut self.frames);
+            let last = frames.pop();
+            frames.retain(|frame| self.is_kept(frame));
+            frames.extend(last);
+            self.frames = frames;
+        }
+    }
+
+    /// Whether a frame stays when others follow.
+    fn is_kept(&self, frame: &AntFrame) -> bool {
+        let number = frame.record.iteration.saturating_add(1);
+        let power = 10_u32.pow(number.ilog10());
+        let is_round = [1, 2, 5].iter().any(|first| number == first * power);
+        is_round || number.is_multiple_of(self.stride)
+    }
+}
+
+impl Observer for AntFrames {
+    fn on_event(&mut self, event: &Event) {
+        if let Event::Iteration(view) = event {
+            self.keep(view);
+        }
+    }
+}
+
+impl AntFrame {
+    fn of(view: &ColonyView, grid: Grid) -> Self {
+        let ants = |arrived: bool| {
+            let ants = 0..view.ways.n_ants();
+            let ants = ants.filter(|&ant| view.ways.arrived[ant] == arrived);
+            traffic(&view.ways, grid, ants)
+        };
+        Self {
+            record: *view.record,
+            arrived: ants(true),
+            lost: ants(false),
+            best: view.ways.best.map(|ant| view.ways.way(ant)),
+            pheromone: if view.pheromone.len() == grid.n_cells() {
+                view.pheromone.to_vec()
+            } else {
+                pheromone_by_cell(view.pheromone, grid.0)
+            },
+        }
+    }
+}
+
+/// The passages of some ants, ordered by cells.
+fn traffic(ways: &AntWays, grid: Grid, ants: impl Iterator<Item = usize>) -> Vec<Traffic> {
+    // By cell and step, of which a passage has that of the two that leads north, or east.
+    let mut counts = vec![0_u32; 4 * grid.n_cells()];
+    for ant in ants {
+        let mut from = grid.index(ways.start);
+        for &step in ways.steps(ant) {
+            let step = usize::from(step);
+            let to = from.wrapping_add_signed(grid.offset(step));
+            let place = match step.checked_sub(4) {
+                None => 4 * from + step,
+                Some(back) => 4 * to + back,
+            };
+            if let Some(count) = counts.get_mut(place) {
+                *count += 1;
+            }
+            from = to;
+        }
+    }
+    let used = counts.iter().enumerate().filter(|(_, count)| **count > 0);
+    let traffic = used.map(|(place, &n_passed)| {
+        let (from, step) = (place / 4, place % 4);
+        let to = from.wrapping_add_signed(grid.offset(step));
+        let cells = [from, to].map(|cell| grid.cell(cell));
+        Traffic { cells, n_passed }
+    });
+    traffic.collect()
+}
+
+/// Columns and rows.
+#[derive(Clone, Copy, Debug)]
+struct Grid(usize, usize);
+
+impl Grid {
+    fn n_cells(self) -> usize {
+        self.0 * self.1
+    }
+
+    fn index(self, cell: Cell) -> usize {
+        cell.row as usize * self.0 + cell.col as usize
+    }
+
+    fn cell(self, index: usize) -> Cell {
+        Cell::new((index % self.0) as u32, (index / self.0) as u32)
+    }
+
+    /// How far a step leads, in cells counted row by row.
+    fn offset(self, step: usize) -> isize {
+        let (dx, dy) = STEPS[step];
+        dx as isize + dy as isize * self.0 as isize
+    }
+}
+
+/// Pheromone by cell from that by cell and step, eight to a cell: that of a cell is the most on a
+/// step to it.
+pub fn pheromone_by_cell(by_step: &[f32], n_cols: usize) -> Vec<f32> {
+    let n_cells = by_step.len() / 8;
+    let grid = Grid(n_cols, n_cells / n_cols.max(1));
+    let mut cells = vec![f32::NAN; n_cells];
+    for (cell, steps) in by_step.chunks_exact(8).enumerate() {
+        for (step, &tau) in steps.iter().enumerate() {
+            // Steps off the map have none.
+            match cells.get_mut(cell.wrapping_add_signed(grid.offset(step))) {
+                Some(to) if !tau.is_nan() => *to = to.max(tau),
+                _ => {}
+            }
+        }
+    }
+    cells
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WAYS: AntWays = AntWays {
+        start: Cell::new(0, 0),
+        steps: &[0, 0, 4, 0, 1],
+        ends: &[4, 5],
+        arrived: &[true, false],
+        best: Some(0),
+    };
+
+    fn kept(n_iterations: u32, n_cells: usize) -> Vec<u32> {
+        let mut frames = AntFrames::new(n_cells / 2, 2);
+        for iteration in 0..n_iterations {
+            let record = IterationRecord {
+                iteration,
+                ..IterationRecord::default()
+            };
+            frames.keep(&ColonyView {
+                record: &record,
+                ways: WAYS,
+                pheromone: &[],
+            });
+        }
+        let numbers = frames.frames().iter().map(|f| f.record.iteration + 1);
+        numbers.collect()
+    }
+
+    #[test]
+    fn passages_count_in_both_directions() {
+        let record = IterationRecord::default();
+        let view = ColonyView {
+            record: &record,
+            ways: WAYS,
+            pheromone: &[0.5; 6],
+        };
+        let frame = AntFrame::of(&view, Grid(3, 2));
+        let [a, b, c] = [0, 1, 2].map(|col| Cell::new(col, 0));
+        let passed = |cells, n_passed| Traffic { cells, n_passed };
+        assert_eq!(frame.arrived, [passed([a, b], 1), passed([b, c], 3)]);
+        assert_eq!(frame.lost, [passed([a, Cell::new(1, 1)], 1)]);
+        assert_eq!(frame.best.unwrap().cells, [a, b, c, b, c]);
+        assert_eq!(frame.pheromone, [0.5; 6]);
+    }
+
+    #[test]
+    fn first_round_regular_and_last_iterations_are_kept() {
+        assert_eq!(kept(7, 4), [1, 2, 3, 4, 5, 6, 7]);
+        let many = kept(151, 4);
+        assert!(many.len() <= AntFrames::MAX_FRAMES, "{many:?}");
+        assert_eq!(many[..7], [1, 2, 4, 5, 8, 10, 12]);
+        assert_eq!(many[many.len() - 2..], [148, 151]);
+    }
+
+    #[test]
+    fn memory_is_bounded_by_frames_and_cells() {
+        assert!(kept(20_000, 4).len() <= AntFrames::MAX_FRAMES + 1);
+        assert!(kept(5_000, AntFrames::MAX_CELLS / 20).len() <= 21);
+    }
+
+    #[test]
+    fn a_cell_has_the_most_pheromone_of_the_steps_to_it() {
+        let mut by_step = [f32::NAN; 4 * 8];
+        // On a grid of 2 x 2: east and north-east from the first cell, south from the last.
+        (by_step[0], by_step[1], by_step[3 * 8 + 6]) = (1.0, 2.0, 3.0);
+        let by_cell = pheromone_by_cell(&by_step, 2);
+        assert!(by_cell[0].is_nan() && by_cell[2].is_nan());
+        assert_eq!((by_cell[1], by_cell[3]), (3.0, 2.0));
+    }
+}
