@@ -218,14 +218,16 @@ fn colony(n_iterations: u32) -> (OccupancyGrid, Stages, AntFrames) {
         "...######...",
         "............",
     ];
-    let map = OccupancyGrid::from_rows(&rows, 1.0).unwrap();
+    let map = OccupancyGrid::from_rows(&rows, 1.0).expect("a map");
     let mut config = PlannerConfig::of(PlannerName::Lei2020);
     (config.colony.n_ants, config.colony.n_iterations) = (30, n_iterations);
     let mut ants = AntFrames::new(12, 6);
     let request = Request::new(Pose2::new(0.5, 3.0, 0.0), Pose2::new(11.5, 3.0, 0.0));
-    let mut planner = Planner::new(&map, Vehicle::preset("point").unwrap(), config).unwrap();
-    let outcome = planner.plan(&request, Seed(3), &mut ants).unwrap();
-    (map, outcome.found().unwrap().stages, ants)
+    let point = Vehicle::preset("point").expect("a vehicle");
+    let mut planner = Planner::new(&map, point, config).expect("a planner");
+    let outcome = planner.plan(&request, Seed(3), &mut ants);
+    let plan = outcome.expect("a fair request").found().expect("a way");
+    (map, plan.stages, ants)
 }
 
 fn colony_of<'a>(

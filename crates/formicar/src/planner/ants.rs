@@ -111,7 +111,7 @@ impl Planner {
             }
             Err(error) => {
                 let reason = format!(
-                    "the ants found a way of {} cells that cannot be made drivable: {error}",
+                    "the ants found a way of {} cells that cannot be made drivable: {error}; hint: a larger layers.expansion keeps them off corners",
                     path.cells.len()
                 );
                 Err(Ended::because(Status::Infeasible, reason, stages))

@@ -27,6 +27,8 @@ const WIDE_PANEL_PX: f64 = 720.0;
 /// Cells of at least this size show their grid lines.
 const GRID_LINES_FROM_PX: f64 = 8.0;
 
+/// The darkest shade of a heat map, the palest being 0: more would look the same.
+const LAST_SHADE: u8 = 63;
 /// Powers of ten that a logarithmic heat map shows.
 const LOG_HEAT_DECADES: f64 = 3.0;
 
@@ -144,11 +146,10 @@ impl Scene {
         let place = (&self.frame, &self.view);
         let layer = CellLayer::new(place.0, place.1, |i| {
             let share = values.get(i).and_then(|&v| heat.share(f64::from(v)));
-            share.map_or(0, |share| 1 + (254.0 * share) as u8)
+            share.map_or(0, |share| 1 + (share * f64::from(LAST_SHADE)).round() as u8)
         });
-        let colors: Vec<Color> = (0..255)
-            .map(|i| palette::heat(f64::from(i) / 254.0))
-            .collect();
+        let shade = |i: u8| palette::heat(f64::from(i) / f64::from(LAST_SHADE));
+        let colors: Vec<Color> = (0..=LAST_SHADE).map(shade).collect();
         layer.draw(&mut self.ground, place, &colors);
         self.legend.add(label, heat.swatch());
         self

@@ -126,6 +126,9 @@ fn article(page: &mut Html, done: &Done) {
     }
     facts(page, done);
     figure(page, done);
+    if done.has_film() {
+        film(page, done);
+    }
     if let Some(command) = done.case.command() {
         page.raw("<pre>");
         page.text(&command);
@@ -188,6 +191,15 @@ fn figure(page: &mut Html, done: &Done) {
     }
     page.raw(" ");
     page.link(&file("json"), "answer (JSON)");
+    page.raw("</figcaption></figure>\n");
+}
+
+fn film(page: &mut Html, done: &Done) {
+    let file = format!("{RUNS_FOLDER}/{}.gif", done.case.id());
+    page.raw(&format!("<figure><img src=\"{file}\" loading=\"lazy\" alt=\""));
+    page.text("The ants and their pheromone, iteration by iteration.");
+    page.raw("\"><figcaption>");
+    page.link(&file, "ants (GIF)");
     page.raw("</figcaption></figure>\n");
 }
 

@@ -1,11 +1,14 @@
 //! One run of the demo: plan, draw, and keep what the table and the page show.
 
 use super::case::Case;
-use crate::clock::Clock;
+use crate::ants::{self, AntsKind};
+use crate::clock::{Clock, Watch};
 use crate::picture::{self, PictureKind};
 use anyhow::{Context, Result};
+use formicar::map::builtin::BuiltinKind;
 use formicar::numeric::Seed;
 use formicar::planner::{Answer, AnswerContext, Outcome, Planner, PlannerConfig, Timing};
+use formicar::progress::AntFrames;
 use formicar::render::{Layout, Picture};
 use std::time::Instant;
 
@@ -24,6 +27,8 @@ pub(super) struct Done<'a> {
     /// The same for narrow screens.
     pub(super) phone: Picture,
     png: Option<Vec<u8>>,
+    /// A film of its ants, where ants walked on a map small enough to watch them.
+    film: Option<Vec<u8>>,
 }
 
 /// Carries out a run. An end without a path is no error.
@@ -36,8 +41,15 @@ pub(super) fn run(case: &Case) -> Result<Done<'_>> {
     let map_setup_s = setup.elapsed().as_secs_f64();
 
     let request = case.request();
-    let mut clock = Clock::begin();
-    let result = planner.plan(&request, SEED, &mut clock);
+    let has_film = case.planner.colony().is_some() && case.map.kind == BuiltinKind::GridProblem;
+    let (n_cols, n_rows) = (ground.map.frame().n_cols(), ground.map.frame().n_rows());
+    let mut kept = has_film.then(|| AntFrames::new(n_cols, n_rows));
+    let mut watch = Watch {
+        clock: Clock::begin(),
+        ants: kept.as_mut(),
+    };
+    let result = planner.plan(&request, SEED, &mut watch);
+    let clock = watch.clock;
     let timing = Timing {
         map_setup_s,
         first_feasible_s: clock.first_feasible_s(),
@@ -65,6 +77,10 @@ pub(super) fn run(case: &Case) -> Result<Done<'_>> {
         picture
     };
     let (picture, phone) = (drawn(Layout::Page), drawn(Layout::Phone));
+    let film = kept.filter(|kept| !kept.frames().is_empty()).map(|kept| {
+        let told = (&answer, &outcome);
+        ants::encode(&ground, told, kept.frames(), AntsKind::Gif)
+    });
     let png = case
         .has_png
         .then(|| picture::encode(&picture, PictureKind::Png));
@@ -73,6 +89,7 @@ pub(super) fn run(case: &Case) -> Result<Done<'_>> {
         n_steps,
         max_curvature_per_m: ground.vehicle.vehicle.max_curvature_per_m(),
         png: png.transpose()?,
+        film: film.transpose()?,
         picture,
         phone,
         answer,
@@ -90,6 +107,11 @@ impl Done<'_> {
         self.answer.path.is_some()
     }
 
+    /// Whether there is a film of its ants.
+    pub(super) fn has_film(&self) -> bool {
+        self.film.is_some()
+    }
+
     /// Its files by extension.
     pub(super) fn files(&self) -> Result<Vec<(&'static str, Vec<u8>)>> {
         let mut json = serde_json::to_vec(&self.answer)?;
@@ -100,6 +122,7 @@ impl Done<'_> {
             ("json", json),
         ];
         files.extend(self.png.clone().map(|png| ("png", png)));
+        files.extend(self.film.clone().map(|film| ("gif", film)));
         Ok(files)
     }
 }
