@@ -23,10 +23,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     for member in family.iter().filter(|m| m.order == TurnOrder::AvoidFirst) {
         let poses = driven(member).sample(0.05);
         let points: Vec<Point2> = poses.iter().map(|p| p.pose.position()).collect();
-        scene.polyline(
-            &points,
-            &style("", palette::heat(0.3 + 0.6 * member.beta_rad)),
-        );
+        let style = LineStyle {
+            label: String::new(),
+            color: palette::heat(0.3 + 0.6 * member.beta_rad),
+            width_px: 1.8,
+            dash: Dash::Solid,
+        };
+        scene.polyline(&points, &style);
     }
     let path = driven(&family[0]);
     scene.curve(&path);

@@ -6,6 +6,7 @@
 )]
 
 use formicar::planner::HybridAstarConfig;
+use formicar::smoothing::SmoothingConfig;
 use schemars::schema_for;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -82,6 +83,25 @@ fn the_table_of_hybrid_astar_has_every_parameter() {
         let limit = |which: &str| schema["properties"][key][which].as_f64().unwrap();
         let (low, high) = (limit("minimum"), limit("maximum"));
         let row = format!("| `{key}` | {default} | {low} to {high} |");
+        assert!(page.contains(&row), "no row {row}");
+    }
+    let n_rows = page.lines().filter(|l| l.starts_with("| `")).count();
+    assert_eq!(n_rows, defaults.len(), "rows without a parameter");
+}
+
+#[test]
+fn the_table_of_smoothing_has_every_parameter() {
+    let Some(root) = project() else { return };
+    let page = fs::read_to_string(root.join("docs/src/smoothing.md")).unwrap();
+    let defaults = serde_json::to_value(SmoothingConfig::default()).unwrap();
+    let schema = schema_for!(SmoothingConfig).to_value();
+    let defaults = defaults.as_object().unwrap();
+    for (key, default) in defaults {
+        let limit = |which: &str| schema["properties"][key][which].as_f64();
+        let row = match (limit("minimum"), limit("maximum")) {
+            (Some(low), Some(high)) => format!("| `{key}` | {default} | {low} to {high} |"),
+            _ => format!("| `{key}` | {default} | \""),
+        };
         assert!(page.contains(&row), "no row {row}");
     }
     let n_rows = page.lines().filter(|l| l.starts_with("| `")).count();
