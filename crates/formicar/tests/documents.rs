@@ -10,6 +10,7 @@ use formicar::colony::{
 };
 use formicar::layers::{LayersConfig, MAX_EXPANSION_CELLS};
 use formicar::planner::{HybridAstarConfig, PlannerConfig, PlannerName};
+use formicar::smoothing::SmoothingConfig;
 use formicar::tracking::{PurePursuit, Stanley, StartOffset, TrackingConfig};
 use schemars::{JsonSchema, schema_for};
 use serde::Serialize;
@@ -98,6 +99,25 @@ fn the_table_of_hybrid_astar_has_every_parameter() {
         let limit = |which: &str| schema["properties"][key][which].as_f64().unwrap();
         let (low, high) = (limit("minimum"), limit("maximum"));
         let row = format!("| `{key}` | {default} | {low} to {high} |");
+        assert!(page.contains(&row), "no row {row}");
+    }
+    let n_rows = page.lines().filter(|l| l.starts_with("| `")).count();
+    assert_eq!(n_rows, defaults.len(), "rows without a parameter");
+}
+
+#[test]
+fn the_table_of_smoothing_has_every_parameter() {
+    let Some(root) = project() else { return };
+    let page = fs::read_to_string(root.join("docs/src/smoothing.md")).unwrap();
+    let defaults = serde_json::to_value(SmoothingConfig::default()).unwrap();
+    let schema = schema_for!(SmoothingConfig).to_value();
+    let defaults = defaults.as_object().unwrap();
+    for (key, default) in defaults {
+        let limit = |which: &str| schema["properties"][key][which].as_f64();
+        let row = match (limit("minimum"), limit("maximum")) {
+            (Some(low), Some(high)) => format!("| `{key}` | {default} | {low} to {high} |"),
+            _ => format!("| `{key}` | {default} | \""),
+        };
         assert!(page.contains(&row), "no row {row}");
     }
     let n_rows = page.lines().filter(|l| l.starts_with("| `")).count();

@@ -178,7 +178,9 @@ fn layers_are_named_in_the_legend() {
         .cells(&cells, &CellStyle::expanded())
         .heat_map(&[0.5, f32::NAN, 1.5], "pheromone")
         .grid_path(&chain)
-        .waypoint_path(&way);
+        .waypoint_path(&way)
+        .point(Point2::new(5.0, 3.0), "S1")
+        .point(Point2::new(f64::NAN, 3.0), "nowhere");
     let svg = picture(scene).to_svg();
     check(&svg);
     for name in [
@@ -187,9 +189,11 @@ fn layers_are_named_in_the_legend() {
         "grid path",
         "way points",
         "unknown",
+        "S1",
     ] {
         assert!(svg.contains(&format!("\"{name}\"")), "{name}");
     }
+    assert!(!svg.contains("nowhere"));
 }
 
 #[test]

@@ -1,13 +1,10 @@
 //! A corner rounded by two arcs of the turning radius (Lei & Zheng 2020, sec. III.B).
 
 use crate::geometry::{Arc, Point2};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// Which of the two turns comes first.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TurnOrder {
     /// The collision-avoidance turn by alpha, then the resuming turn by beta, as in the paper.
     #[default]

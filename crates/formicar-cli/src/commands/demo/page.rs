@@ -196,7 +196,9 @@ fn figure(page: &mut Html, done: &Done) {
 
 fn film(page: &mut Html, done: &Done) {
     let file = format!("{RUNS_FOLDER}/{}.gif", done.case.id());
-    page.raw(&format!("<figure><img src=\"{file}\" loading=\"lazy\" alt=\""));
+    page.raw(&format!(
+        "<figure><img src=\"{file}\" loading=\"lazy\" alt=\""
+    ));
     page.text("The ants and their pheromone, iteration by iteration.");
     page.raw("\"><figcaption>");
     page.link(&file, "ants (GIF)");

@@ -1,6 +1,6 @@
 //! The family of 2-turnings at a right angle, with the tangent points of the nearest one.
 //!
-//! `cargo run --release -p formicar --example 06_two_turning`
+//! `cargo run --release -p formicar --example 09_two_turning`
 
 use formicar::geometry::{Point2, Pose2};
 use formicar::map::{GridFrame, OccupancyGrid};
@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ..Picture::default()
     };
     fs::create_dir_all("formicar-examples")?;
-    fs::write("formicar-examples/06_two_turning.svg", picture.to_svg())?;
+    fs::write("formicar-examples/09_two_turning.svg", picture.to_svg())?;
     Ok(())
 }
 
