@@ -47,7 +47,7 @@ fn variants(ground: &Ground) -> Vec<Variant> {
     };
     let closed = |planner: PlannerName| {
         Variant::changed(planner, "U-shapes closed", |c| {
-            c.layers.u_shapes = UShapes::Close
+            c.layers.u_shapes = UShapes::Close;
         })
     };
     let mut variants = vec![
@@ -75,7 +75,7 @@ fn variants(ground: &Ground) -> Vec<Variant> {
             c.smoothing.redundant_nodes = RedundantNodes::Collinear;
         }),
         improved("2-turning alone", |c| {
-            c.smoothing.corners = Corners::TwoTurning
+            c.smoothing.corners = Corners::TwoTurning;
         }),
         improved("evaporation stretched to N/20", |c| stretch(c, 20.0)),
         improved("stopped after 5 idle iterations", |c| {

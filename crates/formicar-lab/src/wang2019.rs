@@ -121,7 +121,7 @@ fn adjacency_table(scale: Scale) -> Result<String> {
         let [global, analytical, masks] = [
             median_ms(scale, || drop(black_box(Adjacency::global(&blocked, rule)))),
             median_ms(scale, || {
-                drop(black_box(Adjacency::analytical(&blocked, rule)))
+                drop(black_box(Adjacency::analytical(&blocked, rule)));
             }),
             median_ms(scale, || drop(black_box(MoveMasks::new(&blocked, rule)))),
         ];
