@@ -11,7 +11,7 @@ use crate::vehicle::{AckermannAxles, BicycleInput, BicycleState, Vehicle};
 use std::mem;
 
 /// Most steps of a drive.
-const MAX_STEPS: f64 = 5e6;
+const MAX_STEPS: u32 = 5_000_000;
 /// A stretch ends where less than this share of a step is left of it.
 const LEAST_STEP: f64 = 0.01;
 /// By how much, relative to the limit, a controller may ask for more before that counts: less is
@@ -33,8 +33,9 @@ pub fn track(
     vehicle: &Vehicle,
     config: &TrackingConfig,
 ) -> Result<Tracking, TrackingError> {
-    let mut run = Run::new(path, vehicle, config.for_vehicle(vehicle)?)?;
+    let config = config.for_vehicle(vehicle)?;
     let stretches = stretches(path)?;
+    let mut run = Run::new(path, vehicle, config)?;
     let status = run.drive(path, &stretches);
     Ok(run.conclude(path, vehicle, status))
 }
@@ -44,13 +45,13 @@ struct Run {
     config: TrackingConfig,
     axles: AckermannAxles,
     max_steer_rad: f64,
-    /// Length of a whole step, and driven lengths and steps at which to give up.
+    /// Length of a whole step, and driven length at which to give up.
     step_m: f64,
     give_up_m: f64,
     state: BicycleState,
     t_s: f64,
     driven_m: f64,
-    n_steps: f64,
+    n_steps: u32,
     n_gear_changes: usize,
     saturated_m: f64,
     most_steer_rad: f64,
@@ -80,8 +81,8 @@ impl Run {
         let way_m = path.length_m() + vehicle.min_turning_radius_m();
         let give_up_m = config.give_up_length_ratio * way_m;
         let n_steps = give_up_m / step_m;
-        if n_steps > MAX_STEPS {
-            let limit = MAX_STEPS;
+        let limit = f64::from(MAX_STEPS);
+        if n_steps > limit {
             return Err(TrackingError::TooLong { n_steps, limit });
         }
         let offset = config.start_offset;
@@ -98,7 +99,7 @@ impl Run {
             config,
             t_s: 0.0,
             driven_m: 0.0,
-            n_steps: 0.0,
+            n_steps: 0,
             n_gear_changes: 0,
             saturated_m: 0.0,
             most_steer_rad: 0.0,
@@ -168,7 +169,7 @@ impl Run {
             if leg.offset.cross_track_m.abs() > self.config.give_up_error_m {
                 return Err(TrackingStatus::LeftPath);
             }
-            if self.driven_m > self.give_up_m || self.n_steps > 2.0 * MAX_STEPS {
+            if self.driven_m > self.give_up_m || self.n_steps > 2 * MAX_STEPS {
                 return Err(TrackingStatus::GaveUp);
             }
         }
@@ -228,7 +229,7 @@ impl Run {
         });
         self.t_s += duration_s;
         self.driven_m += length_m;
-        self.n_steps += 1.0;
+        self.n_steps += 1;
         self.most_steer_rad = self.most_steer_rad.max(self.state.steer_rad.abs());
     }
 
