@@ -26,9 +26,12 @@ pub(super) fn run(
         }
         let answer = match parse(&line) {
             Ok(request) => reply(session, &request, defaults, seed),
-            Err(problem) => session
-                .context()
-                .unreadable(format!("line {n_lines}: {problem}"), seed),
+            Err(problem) => Answer {
+                id: id_of(&line),
+                ..session
+                    .context()
+                    .unreadable(format!("line {n_lines}: {problem}"), seed)
+            },
         };
         serde_json::to_writer(&mut *out, &answer).map_err(std::io::Error::from)?;
         writeln!(out)?;
@@ -63,6 +66,13 @@ fn parse(line: &[u8]) -> Result<RequestDocument, String> {
         return Err(refused("it is no JSON object".to_owned()));
     }
     serde_json::from_slice(line).map_err(|e| refused(e.to_string()))
+}
+
+/// The id of a line that is no request, as far as it is JSON: whoever asked can tell which it was.
+fn id_of(line: &[u8]) -> Option<serde_json::Value> {
+    let line = line.get(..line.len().min(MAX_LINE as usize))?;
+    let value: serde_json::Value = serde_json::from_slice(line).ok()?;
+    value.get("id").cloned()
 }
 
 /// The next line without holding more than [`MAX_LINE`] bytes of it and one to tell.
@@ -103,6 +113,14 @@ mod tests {
             assert!(parse(line.as_bytes()).is_err(), "{line}");
         }
         assert!(parse(b" {}\r").is_ok());
+    }
+
+    #[test]
+    fn a_bad_line_keeps_its_id() {
+        let line = br#"{"id": "a7", "start": "here"}"#;
+        assert!(parse(line).is_err());
+        assert_eq!(id_of(line), Some("a7".into()));
+        assert_eq!(id_of(b"not json"), None);
     }
 
     #[test]
