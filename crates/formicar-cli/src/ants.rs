@@ -45,13 +45,7 @@ pub(crate) fn encode(
     frames: &[AntFrame],
     kind: AntsKind,
 ) -> Result<Vec<u8>> {
-    let (path, stages) = match outcome {
-        Outcome::Found(plan) => (Some(&plan.path), &plan.stages),
-        Outcome::NotFound(failure) => {
-            let refused = failure.refused.as_ref();
-            (refused.map(|(path, _)| path), &failure.stages)
-        }
-    };
+    let stages = outcome.stages();
     let [start, goal] = picture::ends(answer);
     let colony = ColonyPicture {
         map: &ground.map,
@@ -60,7 +54,7 @@ pub(crate) fn encode(
         goal,
         stages,
         frames,
-        path,
+        path: outcome.judged().map(|(path, _)| path),
         title: &picture::title(ground, answer),
         caption: &caption(answer, stages),
     };

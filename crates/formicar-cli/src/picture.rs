@@ -31,16 +31,7 @@ pub(crate) fn of(
     layout: Layout,
 ) -> Picture {
     let [start, goal] = ends(answer);
-    let (path, report) = match outcome {
-        Outcome::Found(plan) => (Some(&plan.path), Some(&*plan.certificate)),
-        Outcome::NotFound(failure) => {
-            let refused = failure.refused.as_ref();
-            (
-                refused.map(|(path, _)| path),
-                refused.map(|(_, report)| report),
-            )
-        }
-    };
+    let (path, report) = outcome.judged().unzip();
     let profile = profile(answer).unwrap_or_default();
     let plan = PlanPicture {
         map: &ground.map,

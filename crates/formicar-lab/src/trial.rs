@@ -62,10 +62,7 @@ impl Trial {
         let begun = Instant::now();
         let outcome = planner.plan(&ground.request, Seed(seed), &mut ())?;
         let query_ms = begun.elapsed().as_secs_f64() * 1e3;
-        let stages = match &outcome {
-            Outcome::Found(plan) => &plan.stages,
-            Outcome::NotFound(failure) => &failure.stages,
-        };
+        let stages = outcome.stages();
         // Where obstacle expansion covers an end no colony sets out.
         let nothing = History::default();
         let history = stages.colony.as_ref().map_or(&nothing, |run| &run.history);

@@ -14,12 +14,6 @@ use formicar::search::{
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
 
-const RULES: [DiagonalRule; 3] = [
-    DiagonalRule::Always,
-    DiagonalRule::AtMostOneObstacle,
-    DiagonalRule::NoObstacles,
-];
-
 fn run_astar(
     moves: &MoveMasks,
     ends: [Cell; 2],
@@ -131,7 +125,7 @@ proptest! {
         prop_assume!(!blocked.get(goal.col as usize, goal.row as usize));
         // One workspace for all: what a query leaves behind must not matter to the next.
         let mut workspace = AstarWorkspace::new();
-        for rule in RULES {
+        for rule in DiagonalRule::ALL {
             let moves = MoveMasks::new(&blocked, rule);
             let components = Components::new(&blocked, rule.connectivity());
             let (field, expected) = (goal_field(&moves, &[goal]), bellman_ford(&blocked, rule, goal));

@@ -106,7 +106,7 @@ fn a_budget_stops_it() {
         };
         assert_eq!(limited(all_steps).status(), Status::Found, "{name:?}");
         if name.colony().is_some() {
-            assert_colony_stops(limited(all_steps / 2), all_steps / 2);
+            assert_colony_stops(&limited(all_steps / 2), all_steps / 2);
             assert_eq!(limited(1).status(), Status::BudgetExhausted, "{name:?}");
             continue;
         }
@@ -121,13 +121,9 @@ fn a_budget_stops_it() {
 }
 
 /// A colony that runs out of steps still has the best path of its ants so far.
-fn assert_colony_stops(outcome: Outcome, budget: u64) {
-    let (stages, n_steps) = match outcome {
-        Outcome::Found(plan) => (plan.stages, plan.n_steps),
-        Outcome::NotFound(failure) => (failure.stages, failure.n_steps),
-    };
-    assert_eq!(n_steps, budget);
-    let run = stages.colony.expect("a colony");
+fn assert_colony_stops(outcome: &Outcome, budget: u64) {
+    assert_eq!(outcome.n_steps(), budget);
+    let run = outcome.stages().colony.as_ref().expect("a colony");
     assert_eq!(run.stop, Stop::Budget);
     assert!(run.best.is_some());
 }

@@ -155,11 +155,7 @@ mod tests {
                     blocked.insert(Cell::new((index % n_cols) as u32, (index / n_cols) as u32));
                 }
             }
-            for rule in [
-                DiagonalRule::Always,
-                DiagonalRule::AtMostOneObstacle,
-                DiagonalRule::NoObstacles,
-            ] {
+            for rule in DiagonalRule::ALL {
                 let adjacency = Adjacency::analytical(&blocked, rule);
                 assert_eq!(adjacency, Adjacency::global(&blocked, rule));
                 let moves = MoveMasks::new(&blocked, rule);

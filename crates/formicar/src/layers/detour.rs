@@ -210,12 +210,6 @@ mod tests {
     use crate::map::{DiagonalRule, OccupancyGrid};
     use proptest::prelude::*;
 
-    const RULES: [DiagonalRule; 3] = [
-        DiagonalRule::Always,
-        DiagonalRule::AtMostOneObstacle,
-        DiagonalRule::NoObstacles,
-    ];
-
     /// Costs of the shortest ways between all cells (Floyd 1962).
     fn all_costs(moves: &MoveMasks) -> Vec<Vec<u32>> {
         let n = moves.as_slice().len();
@@ -252,7 +246,7 @@ mod tests {
             // 0 to 4 are obstacles, 5 to 9 the pocket, of which 5 stays open.
             cells in prop::collection::vec(0_u32..24, 64),
             corner in (0_usize..6, 0_usize..6),
-            rule in prop::sample::select(&RULES[..]),
+            rule in prop::sample::select(&DiagonalRule::ALL[..]),
         ) {
             // Half of the cases have a pocket in one piece.
             let in_block = |i: usize| {

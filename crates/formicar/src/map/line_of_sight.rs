@@ -235,12 +235,6 @@ mod tests {
     use crate::map::neighborhood::STEPS;
     use proptest::prelude::*;
 
-    const RULES: [DiagonalRule; 3] = [
-        DiagonalRule::Always,
-        DiagonalRule::AtMostOneObstacle,
-        DiagonalRule::NoObstacles,
-    ];
-
     /// Whether a segment in eighths of cells touches a cell: do its parameter intervals in the
     /// cell's two slabs overlap?
     fn touches(a: [i64; 2], b: [i64; 2], cell: [i64; 2]) -> bool {
@@ -293,10 +287,10 @@ mod tests {
             let grid = grid_of(12, 12, &bits);
             let (a, b) = ([ends[0], ends[1]], [ends[2], ends[3]]);
             let is_free = !grid.iter().any(|c| touches(a, b, [c.col.into(), c.row.into()]));
-            let seen = RULES.map(|rule| line_of_sight(&grid, rule, eighths(a), eighths(b)));
+            let seen = DiagonalRule::ALL.map(|rule| line_of_sight(&grid, rule, eighths(a), eighths(b)));
             prop_assert_eq!(seen[2], is_free);
             prop_assert!(seen[0] >= seen[1] && seen[1] >= seen[2]);
-            for rule in RULES {
+            for rule in DiagonalRule::ALL {
                 let there = line_of_sight(&grid, rule, eighths(a), eighths(b));
                 prop_assert_eq!(there, line_of_sight(&grid, rule, eighths(b), eighths(a)));
             }
@@ -309,7 +303,7 @@ mod tests {
         ) {
             let grid = grid_of(12, 12, &bits);
             let (a, b) = (Cell::new(ends[0], ends[1]), Cell::new(ends[2], ends[3]));
-            for rule in RULES {
+            for rule in DiagonalRule::ALL {
                 let expected = line_of_sight(&grid, rule, center(a), center(b));
                 prop_assert_eq!(cells_in_sight(&grid, rule, a, b), expected);
             }
@@ -320,7 +314,7 @@ mod tests {
             bits in prop::collection::vec(prop::bool::weighted(0.4), 36),
         ) {
             let grid = grid_of(6, 6, &bits);
-            for rule in RULES {
+            for rule in DiagonalRule::ALL {
                 let moves = MoveMasks::new(&grid, rule);
                 for (i, step) in (0..36 * 8).map(|i| (i / 8, i % 8)) {
                     let cell = moves.cell(i);
@@ -340,7 +334,7 @@ mod tests {
         let mut grid = BitGrid::new(8, 8);
         grid.insert(Cell::new(4, 3));
         let from = Point2::new(1.0, 3.0);
-        for rule in RULES {
+        for rule in DiagonalRule::ALL {
             assert!(!line_of_sight(&grid, rule, from, Point2::new(7.0, 3.0)));
             assert!(!line_of_sight(
                 &grid,
@@ -351,7 +345,17 @@ mod tests {
             assert!(!line_of_sight(&grid, rule, from, Point2::new(1e300, 3.0)));
         }
         let at_its_corner = Point2::new(4.0, 3.0);
-        assert!(line_of_sight(&grid, RULES[1], from, at_its_corner));
-        assert!(!line_of_sight(&grid, RULES[2], from, at_its_corner));
+        assert!(line_of_sight(
+            &grid,
+            DiagonalRule::ALL[1],
+            from,
+            at_its_corner
+        ));
+        assert!(!line_of_sight(
+            &grid,
+            DiagonalRule::ALL[2],
+            from,
+            at_its_corner
+        ));
     }
 }

@@ -197,12 +197,6 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    const RULES: [DiagonalRule; 3] = [
-        DiagonalRule::Always,
-        DiagonalRule::AtMostOneObstacle,
-        DiagonalRule::NoObstacles,
-    ];
-
     fn by_definition(blocked: &BitGrid, rule: DiagonalRule, cell: Cell) -> u8 {
         let free = |dx: i32, dy: i32| {
             let (col, row) = (
@@ -239,7 +233,7 @@ mod tests {
                     }
                 }
             }
-            for rule in RULES {
+            for rule in DiagonalRule::ALL {
                 let moves = MoveMasks::new(&grid, rule);
                 for i in 0..n_cols * n_rows {
                     let cell = moves.cell(i);
@@ -260,7 +254,7 @@ mod tests {
             let [a, b] = corners.map(|(col, row)| (col.index(n_cols), row));
             let (cols, rows) = (a.0.min(b.0)..a.0.max(b.0) + 1, a.1.min(b.1)..a.1.max(b.1) + 1);
             let within = |c: &Cell| cols.contains(&(c.col as usize)) && rows.contains(&(c.row as usize));
-            for rule in RULES {
+            for rule in DiagonalRule::ALL {
                 let mut moves = MoveMasks::new(&before, rule);
                 moves.change(cols.clone(), rows.clone(), |blocked| {
                     blocked.remove_all(cells[..30].iter().map(place).filter(within));

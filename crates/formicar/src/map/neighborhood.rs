@@ -33,6 +33,9 @@ pub enum DiagonalRule {
 }
 
 impl DiagonalRule {
+    /// All rules, the most permissive first.
+    pub const ALL: [Self; 3] = [Self::Always, Self::AtMostOneObstacle, Self::NoObstacles];
+
     /// How many obstacles may touch a path in nothing but a common corner.
     pub fn max_corner_obstacles(self) -> usize {
         match self {

@@ -34,6 +34,33 @@ impl Outcome {
         }
     }
 
+    /// The path that the judge has looked at, certified or refused, with its findings.
+    pub fn judged(&self) -> Option<(&CurvePath, &Report)> {
+        match self {
+            Self::Found(plan) => Some((&plan.path, &plan.certificate)),
+            Self::NotFound(failure) => {
+                let refused = failure.refused.as_ref();
+                refused.map(|(path, report)| (path, report))
+            }
+        }
+    }
+
+    /// What was computed before the path that is judged.
+    pub fn stages(&self) -> &Stages {
+        match self {
+            Self::Found(plan) => &plan.stages,
+            Self::NotFound(failure) => &failure.stages,
+        }
+    }
+
+    /// Search steps done.
+    pub fn n_steps(&self) -> u64 {
+        match self {
+            Self::Found(plan) => plan.n_steps,
+            Self::NotFound(failure) => failure.n_steps,
+        }
+    }
+
     /// How the query ended.
     pub fn status(&self) -> Status {
         match self {

@@ -7,7 +7,7 @@ use crate::picture::{self, PictureKind};
 use anyhow::{Context, Result};
 use formicar::map::builtin::BuiltinKind;
 use formicar::numeric::Seed;
-use formicar::planner::{Answer, AnswerContext, Outcome, Planner, PlannerConfig, Timing};
+use formicar::planner::{Answer, AnswerContext, Planner, PlannerConfig, Timing};
 use formicar::progress::AntFrames;
 use formicar::render::{Layout, Picture};
 use std::time::Instant;
@@ -66,10 +66,6 @@ pub(super) fn run(case: &Case) -> Result<Done<'_>> {
     };
     let answer = context.answer(Some(&request), SEED, &result, timing);
     let outcome = result.with_context(|| case.id())?;
-    let n_steps = match &outcome {
-        Outcome::Found(plan) => plan.n_steps,
-        Outcome::NotFound(failure) => failure.n_steps,
-    };
     let drawn = |layout| {
         let place = (&ground, &**planner.obstacles());
         let mut picture = picture::of(place, &answer, &outcome, layout);
@@ -86,7 +82,7 @@ pub(super) fn run(case: &Case) -> Result<Done<'_>> {
         .then(|| picture::encode(&picture, PictureKind::Png));
     Ok(Done {
         case,
-        n_steps,
+        n_steps: outcome.n_steps(),
         max_curvature_per_m: ground.vehicle.vehicle.max_curvature_per_m(),
         png: png.transpose()?,
         film: film.transpose()?,

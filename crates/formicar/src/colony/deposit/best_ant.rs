@@ -1,6 +1,6 @@
 //! The best ant alone deposits (Stützle & Hoos 2000).
 
-use super::{Generation, Memory, Portion, along, share_of};
+use super::{Generation, Memory, Portion, along, from_ant};
 use crate::numeric::{OutOfRange, check_range};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -41,7 +41,7 @@ impl BestAnt {
             along(memory.best.as_ref(), self.q)
         } else {
             let best = generation.best();
-            best.map(|ant| (generation.steps_of(ant.ant), share_of(self.q, ant.cost)))
+            best.map(|ant| from_ant(generation, ant, self.q))
         };
         portion.into_iter().collect()
     }

@@ -1,6 +1,6 @@
 //! The better ones among the ants that arrived deposit.
 
-use super::{Generation, Portion, share_of};
+use super::{Generation, Portion, from_ant};
 use crate::numeric::{OutOfRange, check_range};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -39,9 +39,7 @@ impl Fittest {
         fit.truncate(n_fit);
         // In the ants' order, as everywhere.
         fit.sort_by_key(|ant| ant.ant);
-        let portion = |ant: &crate::colony::generation::AntCost| {
-            (generation.steps_of(ant.ant), share_of(self.q, ant.cost))
-        };
-        fit.iter().map(portion).collect()
+        let ants = fit.iter();
+        ants.map(|ant| from_ant(generation, ant, self.q)).collect()
     }
 }

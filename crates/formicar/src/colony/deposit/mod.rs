@@ -13,7 +13,7 @@ pub use elitist::Elitist;
 pub use fittest::Fittest;
 
 use super::engine::Memory;
-use super::generation::{Generation, Way};
+use super::generation::{AntCost, Generation, Way};
 use crate::numeric::{OutOfRange, check_range};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -88,9 +88,13 @@ impl Deposit {
 
 /// Q / F from every ant that arrived, in the ants' order.
 fn all(generation: &Generation, q: f64) -> Vec<Portion<'_>> {
-    let portion =
-        |ant: &super::generation::AntCost| (generation.steps_of(ant.ant), share_of(q, ant.cost));
-    generation.costs().iter().map(portion).collect()
+    let ants = generation.costs().iter();
+    ants.map(|ant| from_ant(generation, ant, q)).collect()
+}
+
+/// Q / F from an ant.
+fn from_ant<'a>(generation: &'a Generation, ant: &AntCost, q: f64) -> Portion<'a> {
+    (generation.steps_of(ant.ant), share_of(q, ant.cost))
 }
 
 /// `n` Q / F along a way that is remembered.
