@@ -174,6 +174,19 @@ impl Vehicle {
             .map(|wheelbase| (wheelbase * curvature_per_m).atan())
     }
 
+    /// Wheelbase in metres and largest steering angle in radians.
+    ///
+    /// Where only a turning radius is known, those of a car with that radius whose largest
+    /// steering is 45 degrees; of a point, those of a car with a turning radius of 1 m.
+    pub fn steering_geometry(&self) -> [f64; 2] {
+        let radius_m = match self.motion {
+            Motion::Car => self.min_turning_radius_m(),
+            Motion::Point => 1.0,
+        };
+        let wheelbase_m = self.wheelbase_m().unwrap_or(radius_m);
+        [wheelbase_m, (wheelbase_m / radius_m).atan()]
+    }
+
     /// A 128-bit hash of what the judge uses: motion, footprint and curvature limit.
     pub fn hash(&self) -> u128 {
         let mut bytes = vec![self.motion as u8];

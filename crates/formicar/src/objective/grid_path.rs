@@ -1,0 +1,116 @@
+//! What a path over cells costs: its length and its turns.
+
+use crate::numeric::{OutOfRange, check_range};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::SQRT_2;
+
+/// The cost of a path over cells, F = A P + B T (Lei & Zheng 2020, equation 3).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct PathCost {
+    /// A: weight of the length in cells, from 1e-6 to 1e6.
+    pub length_weight: f64,
+    /// Length of a diagonal step in cells, from 1 to 2; the square root of 2 is exact.
+    pub diagonal_length: f64,
+    /// B: weight of a change of direction, from 0 to 1e6.
+    pub turn_weight: f64,
+}
+
+impl Default for PathCost {
+    /// The length alone.
+    fn default() -> Self {
+        Self {
+            length_weight: 1.0,
+            diagonal_length: SQRT_2,
+            turn_weight: 0.0,
+        }
+    }
+}
+
+impl PathCost {
+    /// Checks the ranges.
+    ///
+    /// # Errors
+    /// The first parameter outside its range.
+    pub fn check(&self) -> Result<(), OutOfRange> {
+        check_range("colony.cost.length_weight", self.length_weight, 1e-6..=1e6)?;
+        check_range(
+            "colony.cost.diagonal_length",
+            self.diagonal_length,
+            1.0..=2.0,
+        )?;
+        check_range("colony.cost.turn_weight", self.turn_weight, 0.0..=1e6)
+    }
+
+    /// P: length in cells.
+    pub fn length_cells(&self, counts: StepCounts) -> f64 {
+        counts.n_straight as f64 + self.diagonal_length * counts.n_diagonal as f64
+    }
+
+    /// F: the cost.
+    pub fn cost(&self, counts: StepCounts) -> f64 {
+        self.length_weight * self.length_cells(counts) + self.turn_weight * counts.n_turns as f64
+    }
+}
+
+/// What a path over cells is made of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StepCounts {
+    /// Steps to a cell with a common edge.
+    pub n_straight: usize,
+    /// Steps to a cell with a common corner.
+    pub n_diagonal: usize,
+    /// Steps in another direction than the one before.
+    pub n_turns: usize,
+}
+
+impl StepCounts {
+    /// Counts steps, each a place in [`STEPS`](crate::map::STEPS).
+    pub fn of(steps: &[u8]) -> Self {
+        let n_diagonal = steps.iter().filter(|&&step| step % 2 == 1).count();
+        let changes = steps.iter().zip(steps.iter().skip(1));
+        Self {
+            n_straight: steps.len() - n_diagonal,
+            n_diagonal,
+            n_turns: changes.filter(|(a, b)| a != b).count(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_steps_and_turns() {
+        let counts = StepCounts::of(&[0, 0, 1, 1, 2, 0]);
+        let expected = StepCounts {
+            n_straight: 4,
+            n_diagonal: 2,
+            n_turns: 3,
+        };
+        assert_eq!(counts, expected);
+        assert_eq!(StepCounts::of(&[]), StepCounts::default());
+        let cost = PathCost {
+            diagonal_length: 1.4,
+            turn_weight: 0.5,
+            ..PathCost::default()
+        };
+        assert!((cost.cost(counts) - 8.3).abs() < 1e-12);
+    }
+
+    #[test]
+    fn refuses_what_is_no_cost() {
+        let cost = PathCost {
+            turn_weight: -1.0,
+            ..PathCost::default()
+        };
+        assert!(
+            cost.check()
+                .unwrap_err()
+                .to_string()
+                .contains("turn_weight")
+        );
+    }
+}
