@@ -1,6 +1,7 @@
 //! An ant's way from start to goal.
 
 use super::config::ColonyConfig;
+use super::crew::Walk;
 use super::footmarks::{Footmarks, Place};
 use super::generation::Generation;
 use super::node::Node;
@@ -25,23 +26,6 @@ impl<'a> Walker<'a> {
             max_retreats: config.dead_end.max_retreats(),
             marks: Footmarks::new(ground.n_cols, ground.n_rows),
             visited: Vec::new(),
-        }
-    }
-
-    /// Sends some ants of an iteration, and adds their ways to a generation.
-    pub(super) fn send(
-        &mut self,
-        nodes: &[Node],
-        iteration: u32,
-        ants: Range<u32>,
-        generation: &mut Generation,
-    ) {
-        for ant in ants {
-            let mut stream = self.seed.stream([u64::from(iteration), u64::from(ant)]);
-            let arrived = self.walk(nodes, &mut stream, &mut generation.steps);
-            generation.end_ant(arrived);
-            self.marks.clear(&self.visited);
-            self.visited.clear();
         }
     }
 
@@ -77,5 +61,26 @@ impl<'a> Walker<'a> {
     fn visit(&mut self, place: Place) {
         self.marks.mark(place);
         self.visited.push(place);
+    }
+}
+
+impl Walk for Walker<'_> {
+    type Shared = Vec<Node>;
+    type Part = Generation;
+
+    fn send(
+        &mut self,
+        nodes: &Vec<Node>,
+        iteration: u32,
+        ants: Range<u32>,
+        generation: &mut Generation,
+    ) {
+        for ant in ants {
+            let mut stream = self.seed.stream([u64::from(iteration), u64::from(ant)]);
+            let arrived = self.walk(nodes, &mut stream, &mut generation.steps);
+            generation.end_ant(arrived);
+            self.marks.clear(&self.visited);
+            self.visited.clear();
+        }
     }
 }

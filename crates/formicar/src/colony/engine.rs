@@ -1,5 +1,6 @@
 //! The loop of a colony: walk, evaluate, remember, evaporate, deposit, limit, tell, stop.
 
+use super::ant::Walker;
 use super::config::{ColonyConfig, ColonyError};
 use super::crew::{Crew, with_crew};
 use super::generation::{Generation, Way};
@@ -9,10 +10,12 @@ use super::limits::Bounds;
 use super::node::Node;
 use super::problem::{ColonyProblem, Ground};
 use super::trails::Trails;
+use crate::map::STEPS;
 use crate::numeric::Seed;
 use crate::objective::StepCounts;
 use crate::progress::{ColonyView, Event, IterationRecord, Limits, Status, path_of};
 use crate::search::SearchError;
+use crate::vehicle::VehicleError;
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -26,6 +29,9 @@ pub enum RunError {
     /// Start or goal cannot be stood on, or the goal field ended.
     #[error(transparent)]
     Search(#[from] SearchError),
+    /// A vehicle that cannot have the margin asked for.
+    #[error(transparent)]
+    Vehicle(#[from] VehicleError),
     /// A map beyond [`ColonyProblem::MAX_CELLS`].
     #[error(
         "a colony works on at most {max} cells, the map has {n_cells}; hint: use a coarser resolution"
@@ -63,7 +69,8 @@ pub fn run(
     let (ground, nodes) = Ground::new(problem, config, limits)?;
     let mut colony = Colony::new(problem, config, &ground, nodes);
     let stop = if ground.has_way {
-        with_crew(&ground, (config, seed), n_threads, |crew| {
+        let walker = || Walker::new(&ground, config, seed);
+        with_crew(walker, config.n_ants, n_threads, |crew| {
             colony.run(crew, limits)
         })
     } else {
@@ -73,7 +80,8 @@ pub fn run(
         best: colony
             .memory
             .best
-            .map(|way| path_of(problem.start(), &way.steps)),
+            .map(|way| path_of(&STEPS, [problem.start(), problem.goal()], &way.steps)),
+        earlier: Vec::new(),
         history: colony.history,
         stop,
         pheromone: colony.trails.by_cell(&ground),
@@ -131,7 +139,7 @@ impl<'a> Colony<'a> {
         }
     }
 
-    fn run(&mut self, crew: &mut Crew, limits: &mut Limits) -> Stop {
+    fn run(&mut self, crew: &mut Crew<Walker>, limits: &mut Limits) -> Stop {
         let mut generation = Generation::default();
         for iteration in 0..self.config.n_iterations {
             match limits.look() {
@@ -150,8 +158,8 @@ impl<'a> Colony<'a> {
             let record = self.update(iteration, &generation);
             limits.tell(&Event::Iteration(ColonyView {
                 record: &record,
-                ways: generation.view(self.problem.start()),
-                pheromone: self.trails.values(),
+                ways: generation.view([self.problem.start(), self.problem.goal()]),
+                pheromone: self.trails.view(),
             }));
             self.history.iterations.push(record);
             if is_cut {
@@ -194,7 +202,7 @@ impl<'a> Colony<'a> {
         let rho = self
             .config
             .evaporation
-            .rho(iteration, self.memory.n_stagnant);
+            .rho(iteration, self.config.n_iterations, self.memory.n_stagnant);
         self.trails.evaporate(rho);
         let deposits = self
             .config

@@ -1,6 +1,7 @@
 //! The ants of one iteration and what their ways cost.
 
-use crate::map::Cell;
+use super::crew::Part;
+use crate::map::{Cell, STEPS};
 use crate::objective::{PathCost, StepCounts};
 use crate::progress::AntWays;
 use std::ops::Range;
@@ -32,25 +33,10 @@ pub(super) struct Way {
 }
 
 impl Generation {
-    pub(super) fn clear(&mut self) {
-        self.steps.clear();
-        self.ends.clear();
-        self.arrived.clear();
-        self.costs.clear();
-    }
-
     /// Ends the way of an ant.
     pub(super) fn end_ant(&mut self, arrived: bool) {
         self.ends.push(self.steps.len());
         self.arrived.push(arrived);
-    }
-
-    /// Appends the ants of another part of the iteration.
-    pub(super) fn append(&mut self, part: &Self) {
-        let n_steps = self.steps.len();
-        self.steps.extend_from_slice(&part.steps);
-        self.ends.extend(part.ends.iter().map(|end| n_steps + end));
-        self.arrived.extend_from_slice(&part.arrived);
     }
 
     /// Forgets all ants from the first on that does not end within so many steps.
@@ -119,14 +105,32 @@ impl Generation {
         }
     }
 
-    pub(super) fn view(&self, start: Cell) -> AntWays<'_> {
+    pub(super) fn view(&self, [start, goal]: [Cell; 2]) -> AntWays<'_> {
         AntWays {
             start,
+            goal,
+            moves: &STEPS,
             steps: &self.steps,
             ends: &self.ends,
             arrived: &self.arrived,
             best: self.best().map(|best| best.ant),
         }
+    }
+}
+
+impl Part for Generation {
+    fn clear(&mut self) {
+        self.steps.clear();
+        self.ends.clear();
+        self.arrived.clear();
+        self.costs.clear();
+    }
+
+    fn append(&mut self, part: &Self) {
+        let n_steps = self.steps.len();
+        self.steps.extend_from_slice(&part.steps);
+        self.ends.extend(part.ends.iter().map(|end| n_steps + end));
+        self.arrived.extend_from_slice(&part.arrived);
     }
 }
 

@@ -78,6 +78,9 @@ impl Stop {
 pub struct ColonyRun {
     /// The cheapest path of all ants; none if none arrived.
     pub best: Option<GridPath>,
+    /// The paths that were the cheapest before it, the latest first; kept by colonies that step
+    /// by chords.
+    pub earlier: Vec<GridPath>,
     /// All iterations.
     pub history: History,
     /// Why it stopped.

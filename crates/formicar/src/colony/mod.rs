@@ -8,6 +8,7 @@
 
 mod adjacency;
 mod ant;
+pub mod chord;
 mod config;
 mod crew;
 pub mod dead_end;

@@ -3,7 +3,7 @@
 use super::config::TrailLayout;
 use super::node::Node;
 use super::problem::{Ground, steps_in};
-use crate::progress::pheromone_by_cell;
+use crate::progress::{Pheromone, pheromone_by_cell};
 
 /// Pheromone of all cells, row by row, or of their steps, eight to a cell; not a number where no
 /// ant can go.
@@ -116,8 +116,11 @@ impl Trails {
             .fold(range, |(low, high), &tau| (low.min(tau), high.max(tau)))
     }
 
-    pub(super) fn values(&self) -> &[f32] {
-        &self.values
+    pub(super) fn view(&self) -> Pheromone<'_> {
+        match self.layout {
+            TrailLayout::Cells => Pheromone::Cells(&self.values),
+            TrailLayout::Edges => Pheromone::Steps(&self.values),
+        }
     }
 
     /// Pheromone by cell, that of a cell being the most on a step to it.

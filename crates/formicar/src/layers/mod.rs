@@ -10,12 +10,14 @@ mod detour;
 mod expansion;
 mod hull;
 mod pockets;
+mod swept_masks;
 mod u_shapes;
 
 use crate::map::{BitGrid, Cell, DiagonalRule, ring};
 
 pub use config::{Expansion, LayersConfig, MAX_EXPANSION_CELLS, UShapes};
 pub use expansion::obstacle_expansion;
+pub use swept_masks::SweptMasks;
 pub use u_shapes::{Pocket, PocketFate};
 
 /// A map's obstacles, and what was laid over them for a query.

@@ -5,5 +5,5 @@ mod polyline;
 mod straightness;
 
 pub use grid_path::{PathCost, StepCounts};
-pub use polyline::{PolylineCost, SteeredLine, SteeringCost};
+pub use polyline::{PolylineCost, SteeredLine, SteeringCost, SteeringMeter};
 pub use straightness::Straightness;

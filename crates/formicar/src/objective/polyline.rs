@@ -81,43 +81,98 @@ impl SteeringCost {
     /// # Errors
     /// Parameters of the suspension outside their ranges.
     pub fn of(&self, line: &SteeredLine) -> Result<PolylineCost, OutOfRange> {
-        let steps: Vec<Point2> = line.points.windows(2).map(|w| w[1] - w[0]).collect();
+        let steps = line.points.windows(2).map(|w| w[1] - w[0]);
         let steps: Vec<(f64, f64)> = steps
-            .iter()
             .filter(|step| step.norm() > 0.0)
             .map(|step| (step.angle(), step.norm()))
             .collect();
         let Some(&(first_rad, _)) = steps.first() else {
             return Ok(PolylineCost::default());
         };
-        let (n_steps, length_m) = (steps.len() as f64, steps.iter().map(|step| step.1).sum());
-        let mean_step_m: f64 = length_m / n_steps;
-        let suspension = line.suspension.clone();
-        let mut suspended = SuspendedSteering::new(line.steering, suspension, mean_step_m)?;
-        let mut straightness = Straightness::default();
+        let length_m: f64 = steps.iter().map(|step| step.1).sum();
+        let mean_step_m = length_m / steps.len() as f64;
+        let suspended =
+            SuspendedSteering::new(line.steering, line.suspension.clone(), mean_step_m)?;
+        let mut meter = SteeringMeter::new(line.steering, suspended);
         let mut heading_rad = line.start_heading_rad.unwrap_or(first_rad);
-        let (mut steering, mut max_ratio) = (0.0, 0.0_f64);
-        let (mut sum_turns, mut sum_squares) = (0.0, 0.0);
         for (direction_rad, step_m) in steps {
-            let turn_rad = angle_difference(direction_rad, heading_rad);
-            let needed_rad = (line.steering[0] * turn_rad.abs() / step_m).atan();
-            let ratio = needed_rad / suspended.advance(turn_rad, step_m).limit_rad;
-            // Li 2024 (18) without the factor of the generation.
-            steering += self.epsilon * straightness.with(turn_rad.abs(), step_m) * ratio;
-            straightness.push(turn_rad.abs(), step_m);
-            max_ratio = max_ratio.max(ratio);
-            sum_turns += turn_rad;
-            sum_squares += turn_rad * turn_rad;
+            meter.take(angle_difference(direction_rad, heading_rad), step_m);
             heading_rad = direction_rad;
         }
-        let mean_turn = sum_turns / n_steps;
-        Ok(PolylineCost {
-            cost: self.steering_weight * steering / n_steps
-                + self.length_weight * length_m / line.reference_m,
-            length_m,
-            turn_variance_rad2: (sum_squares / n_steps - mean_turn * mean_turn).max(0.0),
-            max_steering_ratio: max_ratio,
-        })
+        Ok(meter.total(self, line.reference_m))
+    }
+}
+
+/// Adds up what the steps of a polyline cost while they are taken.
+#[derive(Clone, Debug)]
+pub struct SteeringMeter {
+    wheelbase_m: f64,
+    suspended: SuspendedSteering,
+    straightness: Straightness,
+    /// `phi_c`, where the next step begins.
+    limit_rad: f64,
+    n_steps: u32,
+    length_m: f64,
+    /// Sum of G |phi| / `phi_c`.
+    steering: f64,
+    max_ratio: f64,
+    sum_turns_rad: f64,
+    sum_squares_rad2: f64,
+}
+
+impl SteeringMeter {
+    /// For a vehicle at rest with a wheelbase in metres and a largest steering in radians.
+    pub fn new([wheelbase_m, max_steer_rad]: [f64; 2], suspended: SuspendedSteering) -> Self {
+        Self {
+            wheelbase_m,
+            suspended,
+            straightness: Straightness::default(),
+            limit_rad: max_steer_rad,
+            n_steps: 0,
+            length_m: 0.0,
+            steering: 0.0,
+            max_ratio: 0.0,
+            sum_turns_rad: 0.0,
+            sum_squares_rad2: 0.0,
+        }
+    }
+
+    /// `phi_c`: the steering that the vehicle can give where it is, radians.
+    pub fn limit_rad(&self) -> f64 {
+        self.limit_rad
+    }
+
+    /// How straight the last steps were.
+    pub fn straightness(&self) -> &Straightness {
+        &self.straightness
+    }
+
+    /// Takes a step of a positive length after a turn.
+    pub fn take(&mut self, turn_rad: f64, length_m: f64) {
+        let needed_rad = (self.wheelbase_m * turn_rad.abs() / length_m).atan();
+        let ratio = needed_rad / self.limit_rad;
+        // Li 2024 (18) without epsilon and the factor of the generation.
+        self.steering += self.straightness.with(turn_rad.abs(), length_m) * ratio;
+        self.straightness.push(turn_rad.abs(), length_m);
+        self.limit_rad = self.suspended.advance(turn_rad, length_m).limit_rad;
+        self.n_steps += 1;
+        self.length_m += length_m;
+        self.max_ratio = self.max_ratio.max(ratio);
+        self.sum_turns_rad += turn_rad;
+        self.sum_squares_rad2 += turn_rad * turn_rad;
+    }
+
+    /// What all steps so far come to, with the length that lengths are compared with.
+    pub fn total(&self, weights: &SteeringCost, reference_m: f64) -> PolylineCost {
+        let n_steps = f64::from(self.n_steps.max(1));
+        let mean_turn = self.sum_turns_rad / n_steps;
+        PolylineCost {
+            cost: weights.steering_weight * weights.epsilon * self.steering / n_steps
+                + weights.length_weight * self.length_m / reference_m,
+            length_m: self.length_m,
+            turn_variance_rad2: (self.sum_squares_rad2 / n_steps - mean_turn * mean_turn).max(0.0),
+            max_steering_ratio: self.max_ratio,
+        }
     }
 }
 

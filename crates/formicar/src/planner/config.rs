@@ -1,12 +1,13 @@
 //! Every parameter of every planner, with its range: one definition for files, flags and docs.
 
 use super::sections;
+use crate::colony::chord::ChordConfig;
 use crate::colony::{ColonyConfig, ColonyError, presets};
 use crate::layers::{Expansion, LayersConfig, UShapes};
 use crate::map::DiagonalRule;
 use crate::numeric::OutOfRange;
 use crate::search::HybridAstarConfig;
-use crate::smoothing::SmoothingConfig;
+use crate::smoothing::{Corners, RedundantNodes, SmoothingConfig};
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use thiserror::Error;
@@ -29,6 +30,8 @@ pub struct PlannerConfig {
     pub layers: LayersConfig,
     /// The colony.
     pub colony: ColonyConfig,
+    /// The colony that steps by chords, `faco2024`.
+    pub chords: ChordConfig,
     /// How the ants' path becomes one that a car can drive.
     pub smoothing: SmoothingConfig,
 }
@@ -76,11 +79,13 @@ pub enum PlannerName {
     Zhang2016,
     /// The colony of Joshy & Supriya 2016, as Wang et al. describe it.
     Joshy2016,
+    /// The fractional-order colony of Li et al. 2024.
+    Faco2024,
 }
 
 impl PlannerName {
     /// All planners, the default first.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::HybridAstar,
         Self::Astar,
         Self::Dijkstra,
@@ -91,6 +96,7 @@ impl PlannerName {
         Self::Wang2019,
         Self::Zhang2016,
         Self::Joshy2016,
+        Self::Faco2024,
     ];
 
     /// The word used in files and on the command line.
@@ -106,6 +112,7 @@ impl PlannerName {
             Self::Wang2019 => "wang2019",
             Self::Zhang2016 => "zhang2016",
             Self::Joshy2016 => "joshy2016",
+            Self::Faco2024 => "faco2024",
         }
     }
 
@@ -130,13 +137,16 @@ impl PlannerName {
             }
             Self::Zhang2016 => "Zhang 2016 as Wang et al. describe it: adaptive MAX-MIN Ant System",
             Self::Joshy2016 => "Joshy & Supriya 2016 as Wang et al. describe it: six directions",
+            Self::Faco2024 => {
+                "Li et al. 2024: ants that step by chords as a suspended car steers, fractional order"
+            }
         }
     }
 
-    /// The colony of this name; none if it is no colony.
+    /// The colony over cells of this name; none if it is no such colony.
     pub fn colony(self) -> Option<ColonyConfig> {
         match self {
-            Self::HybridAstar | Self::Astar | Self::Dijkstra => None,
+            Self::HybridAstar | Self::Astar | Self::Dijkstra | Self::Faco2024 => None,
             Self::AntSystem => Some(presets::ant_system()),
             Self::Elitist => Some(presets::elitist()),
             Self::MaxMin => Some(presets::max_min()),
@@ -203,7 +213,15 @@ impl PlannerConfig {
                 u_shapes,
             },
             colony: planner.colony().unwrap_or_default(),
-            smoothing: SmoothingConfig::default(),
+            chords: ChordConfig::default(),
+            smoothing: match planner {
+                PlannerName::Faco2024 => SmoothingConfig {
+                    redundant_nodes: RedundantNodes::Keep,
+                    corners: Corners::WideArcs,
+                    ..SmoothingConfig::default()
+                },
+                _ => SmoothingConfig::default(),
+            },
         }
     }
 
@@ -215,6 +233,7 @@ impl PlannerConfig {
         self.hybrid_astar.check()?;
         self.layers.check()?;
         self.colony.check()?;
+        self.chords.check()?;
         self.smoothing.check()?;
         Ok(())
     }

@@ -2,6 +2,7 @@
 
 mod answer;
 mod ants;
+mod chords;
 mod config;
 mod explain;
 mod outcome;

@@ -71,6 +71,7 @@ impl Planner {
             }
             PlannerName::Astar => self.walk(request, limits, astar_path),
             PlannerName::Dijkstra => self.walk(request, limits, field_path),
+            PlannerName::Faco2024 => return self.send_steering_ants(request, seed, limits),
             _ => return self.send_ants(request, seed, limits),
         };
         match result {

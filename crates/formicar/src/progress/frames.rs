@@ -4,10 +4,10 @@ use super::{AntWays, ColonyView, Event, IterationRecord, Observer};
 use crate::map::{Cell, STEPS};
 use crate::path::GridPath;
 
-/// How often ants of an iteration went between two neighboring cells, in either direction.
+/// How often ants of an iteration went between two cells, in either direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Traffic {
-    /// The two cells, the second north of the first, or east.
+    /// The two cells, the one that comes first row by row before the other.
     pub cells: [Cell; 2],
     /// Passages.
     pub n_passed: u32,
@@ -104,47 +104,35 @@ impl AntFrame {
         let ants = |arrived: bool| {
             let ants = 0..view.ways.n_ants();
             let ants = ants.filter(|&ant| view.ways.arrived[ant] == arrived);
-            traffic(&view.ways, grid, ants)
+            traffic(&view.ways, ants)
         };
         Self {
             record: *view.record,
             arrived: ants(true),
             lost: ants(false),
             best: view.ways.best.map(|ant| view.ways.way(ant)),
-            pheromone: if view.pheromone.len() == grid.n_cells() {
-                view.pheromone.to_vec()
-            } else {
-                pheromone_by_cell(view.pheromone, grid.0)
-            },
+            pheromone: view.pheromone.by_cell(grid.0, grid.1),
         }
     }
 }
 
 /// The passages of some ants, ordered by cells.
-fn traffic(ways: &AntWays, grid: Grid, ants: impl Iterator<Item = usize>) -> Vec<Traffic> {
-    // By cell and step, of which a passage has that of the two that leads north, or east.
-    let mut counts = vec![0_u32; 4 * grid.n_cells()];
+fn traffic(ways: &AntWays, ants: impl Iterator<Item = usize>) -> Vec<Traffic> {
+    let row_by_row = |cell: &Cell| (cell.row, cell.col);
+    let mut passages = Vec::new();
     for ant in ants {
-        let mut from = grid.index(ways.start);
-        for &step in ways.steps(ant) {
-            let step = usize::from(step);
-            let to = from.wrapping_add_signed(grid.offset(step));
-            let place = match step.checked_sub(4) {
-                None => 4 * from + step,
-                Some(back) => 4 * to + back,
-            };
-            if let Some(count) = counts.get_mut(place) {
-                *count += 1;
-            }
-            from = to;
-        }
+        let path = ways.way(ant);
+        passages.extend(path.cells.windows(2).map(|pair| {
+            let mut cells = [pair[0], pair[1]];
+            cells.sort_by_key(row_by_row);
+            cells
+        }));
     }
-    let used = counts.iter().enumerate().filter(|(_, count)| **count > 0);
-    let traffic = used.map(|(place, &n_passed)| {
-        let (from, step) = (place / 4, place % 4);
-        let to = from.wrapping_add_signed(grid.offset(step));
-        let cells = [from, to].map(|cell| grid.cell(cell));
-        Traffic { cells, n_passed }
+    passages.sort_unstable_by_key(|cells| cells.each_ref().map(row_by_row));
+    let same = passages.chunk_by(|a, b| a == b);
+    let traffic = same.map(|passages| Traffic {
+        cells: passages[0],
+        n_passed: passages.len() as u32,
     });
     traffic.collect()
 }
@@ -156,14 +144,6 @@ struct Grid(usize, usize);
 impl Grid {
     fn n_cells(self) -> usize {
         self.0 * self.1
-    }
-
-    fn index(self, cell: Cell) -> usize {
-        cell.row as usize * self.0 + cell.col as usize
-    }
-
-    fn cell(self, index: usize) -> Cell {
-        Cell::new((index % self.0) as u32, (index / self.0) as u32)
     }
 
     /// How far a step leads, in cells counted row by row.
@@ -193,10 +173,13 @@ pub fn pheromone_by_cell(by_step: &[f32], n_cols: usize) -> Vec<f32> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Pheromone;
     use super::*;
 
     const WAYS: AntWays = AntWays {
         start: Cell::new(0, 0),
+        goal: Cell::new(2, 0),
+        moves: &STEPS,
         steps: &[0, 0, 4, 0, 1],
         ends: &[4, 5],
         arrived: &[true, false],
@@ -213,7 +196,7 @@ mod tests {
             frames.keep(&ColonyView {
                 record: &record,
                 ways: WAYS,
-                pheromone: &[],
+                pheromone: Pheromone::Cells(&[]),
             });
         }
         let numbers = frames.frames().iter().map(|f| f.record.iteration + 1);
@@ -226,7 +209,7 @@ mod tests {
         let view = ColonyView {
             record: &record,
             ways: WAYS,
-            pheromone: &[0.5; 6],
+            pheromone: Pheromone::Cells(&[0.5; 6]),
         };
         let frame = AntFrame::of(&view, Grid(3, 2));
         let [a, b, c] = [0, 1, 2].map(|col| Cell::new(col, 0));

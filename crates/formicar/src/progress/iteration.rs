@@ -1,6 +1,6 @@
 //! What a colony tells of an iteration.
 
-use crate::map::{Cell, STEPS};
+use crate::map::Cell;
 use crate::path::GridPath;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -42,7 +42,12 @@ pub struct IterationRecord {
 pub struct AntWays<'a> {
     /// Where all set out.
     pub start: Cell,
-    /// Steps of all ants, one ant after the other, as places in [`STEPS`].
+    /// Where they go.
+    pub goal: Cell,
+    /// The steps that an ant can take, columns and rows: [`STEPS`](crate::map::STEPS), or chords.
+    pub moves: &'a [(i32, i32)],
+    /// Steps of all ants, one ant after the other, as places in `moves`; any other leads to the
+    /// goal.
     pub steps: &'a [u8],
     /// Where in `steps` each ant ends.
     pub ends: &'a [usize],
@@ -60,7 +65,7 @@ impl AntWays<'_> {
 
     /// The way of an ant, whether it arrived or not.
     pub fn way(&self, ant: usize) -> GridPath {
-        path_of(self.start, self.steps(ant))
+        path_of(self.moves, [self.start, self.goal], self.steps(ant))
     }
 
     /// The steps of an ant.
@@ -70,19 +75,49 @@ impl AntWays<'_> {
     }
 }
 
-/// The cells that steps lead through.
-pub fn path_of(start: Cell, steps: &[u8]) -> GridPath {
+/// The cells that steps lead through, as places in `moves`; any other leads to the goal.
+pub fn path_of(moves: &[(i32, i32)], [start, goal]: [Cell; 2], steps: &[u8]) -> GridPath {
     let mut cell = start;
     let after = steps.iter().map(|&step| {
-        let (dx, dy) = STEPS[usize::from(step)];
-        cell = Cell::new(
-            cell.col.wrapping_add_signed(dx),
-            cell.row.wrapping_add_signed(dy),
-        );
+        cell = moves.get(usize::from(step)).map_or(goal, |&(dx, dy)| {
+            Cell::new(
+                cell.col.wrapping_add_signed(dx),
+                cell.row.wrapping_add_signed(dy),
+            )
+        });
         cell
     });
     GridPath {
         cells: std::iter::once(start).chain(after).collect(),
+    }
+}
+
+/// Pheromone at the end of an iteration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pheromone<'a> {
+    /// By cell, row by row; not a number where no ant can go.
+    Cells(&'a [f32]),
+    /// By cell and step, eight to a cell; not a number where no ant can go.
+    Steps(&'a [f32]),
+    /// Of some cells, by place row by row; no ant can go to others.
+    Listed(&'a [u32], &'a [f32]),
+}
+
+impl Pheromone<'_> {
+    /// Pheromone of all cells of a grid, row by row, that of a cell being the most on a step to
+    /// it; not a number where no ant can go.
+    pub fn by_cell(&self, n_cols: usize, n_rows: usize) -> Vec<f32> {
+        match self {
+            Self::Cells(values) => values.to_vec(),
+            Self::Steps(values) => super::pheromone_by_cell(values, n_cols),
+            Self::Listed(cells, values) => {
+                let mut all = vec![f32::NAN; n_cols * n_rows];
+                for (&cell, &value) in cells.iter().zip(*values) {
+                    all[cell as usize] = value;
+                }
+                all
+            }
+        }
     }
 }
 
@@ -93,21 +128,23 @@ pub struct ColonyView<'a> {
     pub record: &'a IterationRecord,
     /// Where its ants went.
     pub ways: AntWays<'a>,
-    /// Pheromone by cell, row by row, or by cell and step (eight to a cell); not a number where
-    /// no ant can go.
-    pub pheromone: &'a [f32],
+    /// What lies on the ground.
+    pub pheromone: Pheromone<'a>,
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::map::STEPS;
 
     #[test]
     fn ways_of_ants_lie_one_behind_the_other() {
         let ways = AntWays {
             start: Cell::new(1, 1),
-            steps: &[0, 1, 4],
-            ends: &[2, 2, 3],
+            goal: Cell::new(9, 9),
+            moves: &STEPS,
+            steps: &[0, 1, 4, u8::MAX],
+            ends: &[2, 2, 4],
             arrived: &[true, false, true],
             best: None,
         };
@@ -115,6 +152,7 @@ mod tests {
         let first = [Cell::new(1, 1), Cell::new(2, 1), Cell::new(3, 2)];
         assert_eq!(ways.way(0).cells, first);
         assert_eq!(ways.way(1).cells, [Cell::new(1, 1)]);
-        assert_eq!(ways.way(2).cells, [Cell::new(1, 1), Cell::new(0, 1)]);
+        let to_goal = [Cell::new(1, 1), Cell::new(0, 1), Cell::new(9, 9)];
+        assert_eq!(ways.way(2).cells, to_goal);
     }
 }

@@ -4,7 +4,7 @@ mod frames;
 mod iteration;
 
 pub use frames::{AntFrame, AntFrames, Traffic, pheromone_by_cell};
-pub use iteration::{AntWays, ColonyView, IterationRecord, path_of};
+pub use iteration::{AntWays, ColonyView, IterationRecord, Pheromone, path_of};
 
 use crate::scenario::ErrorCode;
 use serde::{Deserialize, Serialize};

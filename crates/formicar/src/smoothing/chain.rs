@@ -5,7 +5,7 @@
 //! cheapest chain would cost if nothing could be hit and every curve were a straight line.
 
 use super::Corners;
-use super::open_list::{Entry, OpenList, Step};
+use super::open_list::OpenList;
 use super::roadmap::{Facing, Roadmap, Role};
 use super::task::Task;
 use crate::geometry::{Arc, Curve, Point2, Pose2};
@@ -21,6 +21,29 @@ pub(super) struct Piece {
     pub(super) member: Option<usize>,
 }
 
+/// A way from one node to another.
+#[derive(Clone, Copy, Debug)]
+enum Step {
+    /// To the next place of the leg.
+    Straight,
+    /// By a 2-turning of the list.
+    Turning(usize),
+    /// By some curve, at a lower bound of its cost.
+    AnyWord,
+    /// By a curve of the list.
+    Word(usize),
+    /// The start or the goal with the polyline's own heading: nothing to drive.
+    Here,
+}
+
+/// A step between two nodes.
+#[derive(Clone, Copy, Debug)]
+struct Move {
+    from: usize,
+    to: usize,
+    step: Step,
+}
+
 /// How far the chains got of which none reached the goal.
 #[derive(Clone, Debug)]
 pub(super) struct Stuck {
@@ -33,18 +56,19 @@ pub(super) fn cheapest(task: &Task, map: &Roadmap) -> Result<Vec<Piece>, Stuck> 
     let mut search = Search::new(task, map);
     search.open_start();
     while let Some(entry) = search.open.pop() {
-        if search.came_by[entry.to].is_some() {
+        let Move { from, to, step } = entry.item;
+        if search.came_by[to].is_some() {
             continue;
         }
-        if matches!(entry.step, Step::AnyWord) {
-            search.expand(&entry);
-        } else if search.is_free(&entry) {
-            search.came_by[entry.to] = Some((entry.from, entry.step));
-            search.costs[entry.to] = entry.cost;
-            if entry.to == search.goal() {
+        if matches!(step, Step::AnyWord) {
+            search.expand([from, to]);
+        } else if search.is_free(from, step) {
+            search.came_by[to] = Some((from, step));
+            search.costs[to] = entry.cost;
+            if to == search.goal() {
                 return Ok(search.pieces());
             }
-            search.open_from(entry.to);
+            search.open_from(to);
         }
     }
     let nodes = (0..search.start()).filter(|&node| search.came_by[node].is_some());
@@ -62,7 +86,7 @@ struct Search<'a> {
     costs: Vec<f64>,
     /// Per place the least that the rest of the way costs.
     remaining: Vec<f64>,
-    open: OpenList,
+    open: OpenList<Move>,
     /// Curves with the poses from which they are driven.
     words: Vec<(Pose2, Curve)>,
     /// Per leg and facing, whether the body can drive from each place to the next.
@@ -143,7 +167,8 @@ impl<'a> Search<'a> {
         } else {
             self.remaining[nodes[1] / 2]
         };
-        self.open.push([cost, remaining], nodes, step);
+        let [from, to] = nodes;
+        self.open.push([cost, remaining], Move { from, to, step });
     }
 
     /// Opens the pieces that begin at the start.
@@ -205,7 +230,7 @@ impl<'a> Search<'a> {
         let end_m = map.s_m(place) + self.task.reach_m();
         let later = match self.task.config.corners {
             Corners::TwoTurning => 0..0,
-            Corners::TwoTurningOrDubins => map.legs[map.places[place].leg].end..map.places.len(),
+            Corners::TwoTurningOrDubins | Corners::WideArcs => map.legs[map.places[place].leg].end..map.places.len(),
         };
         let near = later.take_while(move |&to| map.s_m(to) <= end_m);
         near.filter(|&to| map.is_station(to))
@@ -280,8 +305,7 @@ impl<'a> Search<'a> {
     }
 
     /// Puts the cheapest curves between two nodes on the list, each with its cost.
-    fn expand(&mut self, entry: &Entry) {
-        let nodes = [entry.from, entry.to];
+    fn expand(&mut self, nodes: [usize; 2]) {
         let gears = nodes.map(|node| self.gear(node));
         let [from, to] = nodes.map(|node| self.poses(node));
         let mut words = Vec::new();
@@ -290,7 +314,7 @@ impl<'a> Search<'a> {
             words.extend(curves.map(|curve| (self.task.word_cost(&curve, gears), a, curve)));
         }
         words.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let before = self.costs[entry.from] + self.passing_cost(nodes);
+        let before = self.costs[nodes[0]] + self.passing_cost(nodes);
         for (cost, start, curve) in words.into_iter().take(MAX_WORDS) {
             let word = Step::Word(self.words.len());
             self.push(before + cost, nodes, word);
@@ -298,11 +322,11 @@ impl<'a> Search<'a> {
         }
     }
 
-    fn is_free(&mut self, entry: &Entry) -> bool {
-        match entry.step {
-            Step::Straight => self.is_straight_free(entry.from),
+    fn is_free(&mut self, from: usize, step: Step) -> bool {
+        match step {
+            Step::Straight => self.is_straight_free(from),
             Step::Turning(_) | Step::Word(_) => {
-                let (start, arcs) = self.motion(entry.from, entry.step);
+                let (start, arcs) = self.motion(from, step);
                 self.task.all_free(start, &arcs)
             }
             Step::Here => true,

@@ -11,6 +11,9 @@ use serde::{Deserialize, Serialize};
 pub enum Corners {
     /// By 2-turning alone (Lei 2020, sec. III.B).
     TwoTurning,
+    /// By the fewest and widest arcs that the body has room for, from some node of the path to a
+    /// later one, driven forward; where there are none, as `two-turning-or-dubins`. Not in a paper.
+    WideArcs,
     /// By 2-turning, and where no member of it fits, by a Dubins curve (Reeds-Shepp where reverse
     /// is allowed) between poses on earlier and later segments. Not in the paper.
     #[default]
@@ -39,6 +42,22 @@ pub struct SmoothingConfig {
     /// Cost of each corner that a curve passes instead of 2-turning, in turning radii, 0 to 1000.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub passed_corner_radii: f64,
+    /// Cost of a corner that is rounded by a wide arc, in turning radii, 0 to 1000.
+    #[schemars(range(min = 0.0, max = 1000.0))]
+    pub corner_radii: f64,
+    /// Cost of a wide arc for each radian, in turning radii at the least radius and inversely to
+    /// the radius, 0 to 1000.
+    #[schemars(range(min = 0.0, max = 1000.0))]
+    pub bend_weight: f64,
+    /// The widest arc, in turning radii, 1 to 1000.
+    #[schemars(range(min = 1.0, max = 1000.0))]
+    pub max_arc_radii: f64,
+    /// The margin that ways by wide arcs keep where they can, metres, 0 to 100.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub arc_margin_m: f64,
+    /// The longest straight way between two corners of wide arcs, in turning radii, 1 to 10 000.
+    #[schemars(range(min = 1.0, max = 10_000.0))]
+    pub leg_radii: f64,
     /// Factor on the length driven in reverse, 1 to 100.
     #[schemars(range(min = 1.0, max = 100.0))]
     pub reverse_penalty: f64,
@@ -56,6 +75,11 @@ impl Default for SmoothingConfig {
             station_radii: 0.5,
             reach_radii: 8.0,
             passed_corner_radii: 4.0,
+            corner_radii: 0.5,
+            bend_weight: 1.0,
+            max_arc_radii: 16.0,
+            arc_margin_m: 0.1,
+            leg_radii: 100.0,
             reverse_penalty: 2.0,
             direction_switching_cost: 1.0,
         }
@@ -82,6 +106,11 @@ impl SmoothingConfig {
         check_range("smoothing.reach_radii", self.reach_radii, 0.0..=100.0)?;
         let passed = self.passed_corner_radii;
         check_range("smoothing.passed_corner_radii", passed, 0.0..=1000.0)?;
+        check_range("smoothing.corner_radii", self.corner_radii, 0.0..=1000.0)?;
+        check_range("smoothing.bend_weight", self.bend_weight, 0.0..=1000.0)?;
+        check_range("smoothing.max_arc_radii", self.max_arc_radii, 1.0..=1000.0)?;
+        check_range("smoothing.arc_margin_m", self.arc_margin_m, 0.0..=100.0)?;
+        check_range("smoothing.leg_radii", self.leg_radii, 1.0..=1e4)?;
         check_range(
             "smoothing.reverse_penalty",
             self.reverse_penalty,

@@ -96,6 +96,6 @@ pub enum CornerProblem {
 fn no_curve(corners: Corners) -> &'static str {
     match corners {
         Corners::TwoTurning => "",
-        Corners::TwoTurningOrDubins => ", and no curve past it is free",
+        Corners::TwoTurningOrDubins | Corners::WideArcs => ", and no curve past it is free",
     }
 }

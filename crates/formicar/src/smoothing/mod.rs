@@ -15,6 +15,7 @@ mod roadmap;
 mod smooth;
 mod task;
 mod two_turning;
+mod wide_arcs;
 
 pub use config::{Corners, SmoothingConfig};
 pub use error::{CornerProblem, SmoothingError};

@@ -3,48 +3,31 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// A way from one node to another.
+/// Something to look at, with its cost.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Step {
-    /// To the next place of the leg.
-    Straight,
-    /// By a 2-turning of the list.
-    Turning(usize),
-    /// By some curve, at a lower bound of its cost.
-    AnyWord,
-    /// By a curve of the list.
-    Word(usize),
-    /// The start or the goal with the polyline's own heading: nothing to drive.
-    Here,
-}
-
-/// A step with the cost at which it arrives.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Entry {
-    /// Of a whole chain that takes the step, at least.
+pub(super) struct Entry<T> {
+    /// Of the whole of which it is a part, at least.
     estimate: f64,
     pub(super) cost: f64,
-    pub(super) from: usize,
-    pub(super) to: usize,
-    pub(super) step: Step,
+    pub(super) item: T,
     number: usize,
 }
 
-impl PartialEq for Entry {
+impl<T> PartialEq for Entry<T> {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Entry {}
+impl<T> Eq for Entry<T> {}
 
-impl PartialOrd for Entry {
+impl<T> PartialOrd for Entry<T> {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl Ord for Entry {
+impl<T> Ord for Entry<T> {
     /// The heap hands out the greatest: that of the least estimate is.
     fn cmp(&self, other: &Self) -> Ordering {
         let by_estimate = other.estimate.total_cmp(&self.estimate);
@@ -52,31 +35,38 @@ impl Ord for Entry {
     }
 }
 
-#[derive(Debug, Default)]
-pub(super) struct OpenList {
-    heap: BinaryHeap<Entry>,
+#[derive(Debug)]
+pub(super) struct OpenList<T> {
+    heap: BinaryHeap<Entry<T>>,
     n_pushed: usize,
 }
 
-impl OpenList {
-    /// Puts a step between two nodes on the list that arrives at a cost, of which the rest of the
-    /// way takes at least `remaining` more. One that leads nowhere is left out.
-    pub(super) fn push(&mut self, [cost, remaining]: [f64; 2], nodes: [usize; 2], step: Step) {
+impl<T> Default for OpenList<T> {
+    fn default() -> Self {
+        Self {
+            heap: BinaryHeap::new(),
+            n_pushed: 0,
+        }
+    }
+}
+
+impl<T> OpenList<T> {
+    /// Puts something on the list that costs as much so far, with at least `remaining` to come.
+    /// What leads nowhere is left out.
+    pub(super) fn push(&mut self, [cost, remaining]: [f64; 2], item: T) {
         let estimate = cost + remaining;
         if estimate.is_finite() {
             self.n_pushed += 1;
             self.heap.push(Entry {
                 estimate,
                 cost,
-                from: nodes[0],
-                to: nodes[1],
-                step,
+                item,
                 number: self.n_pushed,
             });
         }
     }
 
-    pub(super) fn pop(&mut self) -> Option<Entry> {
+    pub(super) fn pop(&mut self) -> Option<Entry<T>> {
         self.heap.pop()
     }
 }
@@ -95,10 +85,10 @@ mod tests {
             [0.5, 0.1],
             [0.0, f64::INFINITY],
         ];
-        for (from, costs) in costs.into_iter().enumerate() {
-            open.push(costs, [from, 9], Step::Straight);
+        for (i, costs) in costs.into_iter().enumerate() {
+            open.push(costs, i);
         }
-        let order: Vec<usize> = std::iter::from_fn(|| open.pop()).map(|e| e.from).collect();
+        let order: Vec<usize> = std::iter::from_fn(|| open.pop()).map(|e| e.item).collect();
         assert_eq!(order, [3, 2, 1, 0]);
     }
 }

@@ -5,9 +5,10 @@ use super::explain::explain;
 use super::polyline::{Polyline, waypoints};
 use super::roadmap::Roadmap;
 use super::task::{Ends, Task};
+use super::wide_arcs::{WideWay, widest};
 use super::{Corners, SmoothingConfig, SmoothingError, TwoTurning};
 use crate::collision::{Body, Drive, ObstacleMap};
-use crate::geometry::{Point2, Pose2};
+use crate::geometry::{Arc, Point2, Pose2};
 use crate::map::{BitGrid, Cell, DiagonalRule};
 use crate::path::{CurvePath, Direction, WaypointPath};
 use crate::scenario::{GoalHeading, Request, StartHeading};
@@ -97,6 +98,11 @@ pub fn smooth(
         motion: request.motion,
         ends: &ends,
     };
+    if config.corners == Corners::WideArcs
+        && let Some(way) = widest_with_margin(ground, &task, &points)
+    {
+        return Ok(by_wide_arcs(ground, request, &way));
+    }
     let map = Roadmap::new(Polyline::new(points), config, task.radius_m);
     let pieces = if map.line.legs.is_empty() && (ends.start_is_free || ends.goal_is_free) {
         vec![standing(&task, request)?]
@@ -115,7 +121,7 @@ fn ends(ground: &Ground, request: &Request, corners: Corners, body: &Body) -> En
     let placed = |poses: Vec<Pose2>, is_free: bool| {
         let stride = match (is_free, corners) {
             (true, Corners::TwoTurning) => return Vec::new(),
-            (true, Corners::TwoTurningOrDubins) => FREE_HEADING_STRIDE,
+            (true, Corners::TwoTurningOrDubins | Corners::WideArcs) => FREE_HEADING_STRIDE,
             (false, _) => 1,
         };
         let poses = poses.into_iter().map(|pose| frame.to_grid(pose));
@@ -150,7 +156,7 @@ fn standing(task: &Task, request: &Request) -> Result<Piece, SmoothingError> {
 
 fn as_polyline(ground: &Ground, points: &[Point2]) -> Smoothed {
     let line = Polyline::new(points.iter().copied());
-    let waypoints = world_points(ground, &line);
+    let waypoints = world_points(ground, &line.points);
     Smoothed {
         path: CurvePath::from_polyline(&waypoints.points),
         corners: (0..line.n_corners())
@@ -170,16 +176,8 @@ fn assembled(ground: &Ground, request: &Request, map: &Roadmap, pieces: &[Piece]
         (StartHeading::Any, Some(first)) => frame.to_world(first.start).wrapped(),
         _ => request.start,
     };
-    let mut path = CurvePath::new(start);
-    for arc in pieces.iter().flat_map(|piece| &piece.arcs) {
-        let direction = if arc.signed_length_m < 0.0 {
-            Direction::Reverse
-        } else {
-            Direction::Forward
-        };
-        path.push(arc.curvature_per_m, arc.length_m(), direction);
-    }
-    let waypoints = world_points(ground, &map.line);
+    let path = driven(start, pieces.iter().flat_map(|piece| &piece.arcs));
+    let waypoints = world_points(ground, &map.line.points);
     let mut corners: Vec<CornerRecord> = (0..map.line.n_corners())
         .map(|corner| CornerRecord {
             place: waypoints.points[corner + 1],
@@ -198,10 +196,50 @@ fn assembled(ground: &Ground, request: &Request, map: &Roadmap, pieces: &[Piece]
     }
 }
 
-fn world_points(ground: &Ground, line: &Polyline) -> WaypointPath {
+/// The way by wide arcs that keeps a margin or, where there is none, one that keeps none.
+fn widest_with_margin(ground: &Ground, task: &Task, points: &[Point2]) -> Option<WideWay> {
+    let own_m = ground.vehicle.parameters().safety_margin_m.unwrap_or(0.0);
+    let wider = ground.vehicle.with_safety_margin(own_m + task.config.arc_margin_m);
+    let body = wider.map(|vehicle| Body::new(&vehicle)).ok()?;
+    let careful = Task { body: &body, ..*task };
+    widest(&careful, points).or_else(|| widest(task, points))
+}
+
+fn by_wide_arcs(ground: &Ground, request: &Request, way: &WideWay) -> Smoothed {
+    let start = match request.start_heading {
+        StartHeading::Any => ground.obstacles.frame().to_world(way.start).wrapped(),
+        StartHeading::Exact => request.start,
+    };
+    let corners = way.corners.iter().map(|corner| CornerRecord {
+        place: world_points(ground, &[corner.place]).points[0],
+        turn_rad: corner.turning.turn_rad,
+        rounding: Rounding::TwoTurning(corner.turning),
+    });
+    Smoothed {
+        path: driven(start, &way.arcs),
+        waypoints: world_points(ground, &way.points),
+        corners: corners.collect(),
+    }
+}
+
+/// The curve of arcs driven one after the other.
+fn driven<'a>(start: Pose2, arcs: impl IntoIterator<Item = &'a Arc>) -> CurvePath {
+    let mut path = CurvePath::new(start);
+    for arc in arcs {
+        let direction = if arc.signed_length_m < 0.0 {
+            Direction::Reverse
+        } else {
+            Direction::Forward
+        };
+        path.push(arc.curvature_per_m, arc.length_m(), direction);
+    }
+    path
+}
+
+fn world_points(ground: &Ground, points: &[Point2]) -> WaypointPath {
     let frame = ground.obstacles.frame();
     let to_world = |&p: &Point2| frame.to_world(Pose2::at(p, 0.0)).position();
     WaypointPath {
-        points: line.points.iter().map(to_world).collect(),
+        points: points.iter().map(to_world).collect(),
     }
 }

@@ -44,9 +44,14 @@ impl Task<'_> {
 
     /// The curves between two poses that the request allows.
     pub(super) fn words(&self, from: Pose2, to: Pose2) -> Vec<Curve> {
+        self.words_at(from, to, self.radius_m)
+    }
+
+    /// The same with another radius of their arcs, metres.
+    pub(super) fn words_at(&self, from: Pose2, to: Pose2, radius_m: f64) -> Vec<Curve> {
         match self.motion {
-            MotionMode::Forward => dubins::candidates(from, to, self.radius_m),
-            MotionMode::Reverse => reeds_shepp::candidates(from, to, self.radius_m),
+            MotionMode::Forward => dubins::candidates(from, to, radius_m),
+            MotionMode::Reverse => reeds_shepp::candidates(from, to, radius_m),
         }
     }
 

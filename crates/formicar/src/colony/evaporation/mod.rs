@@ -2,10 +2,12 @@
 
 mod adaptive;
 mod constant;
+mod generational;
 mod poisson;
 
 pub use adaptive::Adaptive;
 pub use constant::Constant;
+pub use generational::{Generational, Recursion};
 pub use poisson::PoissonEvaporation;
 
 use super::ColonyError;
@@ -22,6 +24,8 @@ pub enum Evaporation {
     Poisson(PoissonEvaporation),
     /// Less whenever the colony stagnates.
     Adaptive(Adaptive),
+    /// Less from generation to generation.
+    Generational(Generational),
 }
 
 impl Evaporation {
@@ -30,15 +34,18 @@ impl Evaporation {
             Self::Constant(rule) => Ok(rule.check()?),
             Self::Poisson(rule) => rule.check(n_iterations),
             Self::Adaptive(rule) => Ok(rule.check()?),
+            Self::Generational(rule) => Ok(rule.check()?),
         }
     }
 
-    /// rho after iteration `iteration`, of which so far `n_stagnant` brought no better path.
-    pub fn rho(&self, iteration: u32, n_stagnant: u32) -> f64 {
+    /// rho after iteration `iteration` of `n_iterations`, when so far `n_stagnant` brought no
+    /// better path.
+    pub fn rho(&self, iteration: u32, n_iterations: u32, n_stagnant: u32) -> f64 {
         match self {
             Self::Constant(rule) => rule.rho,
             Self::Poisson(rule) => rule.rho(iteration),
             Self::Adaptive(rule) => rule.rho(n_stagnant),
+            Self::Generational(rule) => rule.rho(iteration, n_iterations),
         }
     }
 }

@@ -37,7 +37,11 @@ impl GoalFieldGuidance {
 
     pub(super) fn add_to(&self, desire: &mut LogDesire, costs_to_go: &[f64]) {
         for (log, cost) in desire.cells.iter_mut().zip(costs_to_go) {
-            *log -= self.gamma * cost.max(self.floor_cells).ln();
+            *log += self.log_factor(*cost);
         }
+    }
+
+    pub(super) fn log_factor(&self, cost_to_go: f64) -> f64 {
+        -self.gamma * cost_to_go.max(self.floor_cells).ln()
     }
 }

@@ -76,6 +76,17 @@ impl Guidance {
         !matches!(self, Self::None)
     }
 
+    /// The logarithm of the factor for a step of a length that changes the way to go, all in
+    /// cells.
+    #[inline]
+    pub(super) fn log_factor(&self, step: f64, [before, after]: [f64; 2]) -> f64 {
+        match self {
+            Self::None => 0.0,
+            Self::GoalField(rule) => rule.log_factor(after),
+            Self::Advantage(rule) => -rule.beta * (step + after - before),
+        }
+    }
+
     pub(super) fn add_to(&self, desire: &mut LogDesire, costs_to_go: &[f64]) {
         match self {
             Self::None => {}

@@ -5,6 +5,7 @@
 
 mod ant_system;
 mod elitist;
+mod faco2024;
 mod joshy2016;
 mod lei2020;
 mod max_min;
@@ -13,6 +14,7 @@ mod zhang2016;
 
 pub use ant_system::ant_system;
 pub use elitist::elitist;
+pub use faco2024::faco2024;
 pub use joshy2016::joshy2016;
 pub use lei2020::lei2020;
 pub use max_min::max_min;
@@ -36,5 +38,6 @@ mod tests {
         ] {
             preset.check().unwrap();
         }
+        faco2024().check().unwrap();
     }
 }

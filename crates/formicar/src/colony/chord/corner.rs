@@ -1,0 +1,77 @@
+//! What the corner before a step costs.
+
+use crate::numeric::{OutOfRange, check_range};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// omega of Li 2024 (18): what the corner before a step costs, in terms of the steering phi that
+/// it needs and the steering `phi_c` that the vehicle has; a step that needs more is none.
+///
+/// The factor of the generation k of N is (N - k) / k. It makes corners matter most at first, and
+/// not at all in the last generation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "rule", rename_all = "kebab-case")]
+pub enum CornerTerm {
+    /// omega = epsilon G |phi| / `phi_c` (N - k) / k, read as a product.
+    Product(CornerRule),
+    /// omega = (epsilon G + |phi| / `phi_c`) (N - k) / k, read as a sum.
+    Sum(CornerRule),
+    /// Corners cost nothing.
+    None,
+}
+
+/// Parameters of the corner term.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct CornerRule {
+    /// epsilon, from 0 to 1e6.
+    pub epsilon: f64,
+    /// What G is.
+    pub straightness: StraightnessUse,
+}
+
+/// What G is in the corner term.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum StraightnessUse {
+    /// Li 2024 (19): the mean of the last turns, weighted by the steps beside them.
+    #[default]
+    MeanTurn,
+    /// One.
+    One,
+}
+
+impl Default for CornerRule {
+    fn default() -> Self {
+        Self {
+            epsilon: 0.1,
+            straightness: StraightnessUse::MeanTurn,
+        }
+    }
+}
+
+impl CornerTerm {
+    pub(super) fn check(&self) -> Result<(), OutOfRange> {
+        match self {
+            Self::Product(rule) | Self::Sum(rule) => {
+                check_range("chords.corner.epsilon", rule.epsilon, 0.0..=1e6)
+            }
+            Self::None => Ok(()),
+        }
+    }
+
+    /// omega of a step that needs a share |phi| / `phi_c` of the steering, with G and the factor
+    /// of the generation.
+    #[inline]
+    pub(super) fn omega(&self, steering_share: f64, straightness: f64, factor: f64) -> f64 {
+        let g = |rule: &CornerRule| match rule.straightness {
+            StraightnessUse::MeanTurn => straightness,
+            StraightnessUse::One => 1.0,
+        };
+        match self {
+            Self::Product(rule) => rule.epsilon * g(rule) * steering_share * factor,
+            Self::Sum(rule) => (rule.epsilon * g(rule) + steering_share) * factor,
+            Self::None => 0.0,
+        }
+    }
+}

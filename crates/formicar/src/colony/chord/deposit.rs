@@ -1,0 +1,99 @@
+//! Who deposits pheromone, and how much: by the spread of turns and by length.
+
+use super::generation::ChordGeneration;
+use crate::numeric::{OutOfRange, check_range};
+use crate::objective::PolylineCost;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// dtau = `P_h` (kappa1 `W_ref` / W + kappa2 `L_ref` / L) of Li 2024 (23), with W the mean squared
+/// deviation of the walking angle, at least (1 degree)^2, and L the length of a way.
+///
+/// The references are those of the shortest path over cells, so that both parts have one scale
+/// (a reading: the paper divides by W and by L).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SpreadDeposit {
+    /// kappa1: weight of the spread of turns, from 0 to 1e6.
+    pub spread_weight: f64,
+    /// kappa2: weight of the length, from 0 to 1e6.
+    pub length_weight: f64,
+    /// `P_h`: pheromone, from 1e-6 to 1e6.
+    pub pheromone: f64,
+    /// Which ants deposit.
+    pub by: Depositor,
+}
+
+/// Which ants deposit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Depositor {
+    /// The best of the generation.
+    #[default]
+    Best,
+    /// All that arrived.
+    All,
+}
+
+/// The least W: (1 degree)^2.
+const MIN_VARIANCE_RAD2: f64 = 3.046_174_197_867_086e-4;
+
+impl Default for SpreadDeposit {
+    fn default() -> Self {
+        Self {
+            spread_weight: 0.8,
+            length_weight: 0.2,
+            pheromone: 1.0,
+            by: Depositor::Best,
+        }
+    }
+}
+
+impl SpreadDeposit {
+    pub(super) fn check(&self) -> Result<(), OutOfRange> {
+        check_range("chords.deposit.spread_weight", self.spread_weight, 0.0..=1e6)?;
+        check_range("chords.deposit.length_weight", self.length_weight, 0.0..=1e6)?;
+        check_range("chords.deposit.pheromone", self.pheromone, 1e-6..=1e6)
+    }
+
+    /// The ants that deposit, in their order.
+    pub(super) fn depositors(&self, generation: &ChordGeneration) -> Vec<usize> {
+        match self.by {
+            Depositor::Best => generation.best().into_iter().collect(),
+            Depositor::All => generation.arrived().collect(),
+        }
+    }
+
+    /// What an ant adds along its way, beside the reference path.
+    pub(super) fn amount(&self, way: &PolylineCost, reference: &PolylineCost) -> f64 {
+        let variance = |cost: &PolylineCost| cost.turn_variance_rad2.max(MIN_VARIANCE_RAD2);
+        let spread = variance(reference) / variance(way);
+        // A way that does not move is as good as its reference.
+        let length = if way.length_m > 0.0 {
+            reference.length_m / way.length_m
+        } else {
+            1.0
+        };
+        self.pheromone * (self.spread_weight * spread + self.length_weight * length)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn straighter_and_shorter_ways_get_more() {
+        let way = |variance_deg2: f64, length_m: f64| PolylineCost {
+            turn_variance_rad2: variance_deg2 * MIN_VARIANCE_RAD2,
+            length_m,
+            ..PolylineCost::default()
+        };
+        let (rule, reference) = (SpreadDeposit::default(), way(100.0, 50.0));
+        let amount = |variance, length| rule.amount(&way(variance, length), &reference);
+        assert!((amount(100.0, 50.0) - 1.0).abs() < 1e-12);
+        assert!((amount(50.0, 100.0) - 1.7).abs() < 1e-12);
+        // The spread counts as at least one degree.
+        assert!((amount(0.0, 50.0) - 80.2).abs() < 1e-9);
+    }
+}

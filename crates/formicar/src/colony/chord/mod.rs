@@ -1,0 +1,36 @@
+//! Ants that step by chords, as a car would steer: the colony of Li et al. 2024.
+//!
+//! A step leads straight to a cell of the ring around an ant, so that directions lie a few degrees
+//! apart and a turn asks for an angle of steering that the vehicle may or may not have. What an
+//! ant sees of a step depends on how it came: its corner, how straight its last steps were, what
+//! its suspension leaves of the steering, and the memory of a fractional derivative. The rules in
+//! the slots of a [`ChordConfig`] are those of the paper, each with what switches it off.
+
+mod ant;
+mod candidates;
+mod config;
+mod corner;
+mod corridor;
+mod deposit;
+mod distance;
+mod engine;
+mod generation;
+mod ground;
+mod limit;
+mod problem;
+mod ring;
+mod safety;
+mod seeding;
+mod transition;
+
+pub use config::ChordConfig;
+pub use corner::{CornerRule, CornerTerm, StraightnessUse};
+pub use corridor::{Corridor, NearShortest};
+pub use deposit::{Depositor, SpreadDeposit};
+pub use distance::{DistanceTerm, KnownLengths};
+pub use engine::run_chords;
+pub use limit::{DynamicLimit, SteeringLimit};
+pub use problem::ChordProblem;
+pub use safety::{FootprintSafety, Safety};
+pub use seeding::PathSeed;
+pub use transition::{ChordTransition, FractionalTransition};

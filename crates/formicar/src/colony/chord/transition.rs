@@ -1,0 +1,162 @@
+//! How the next step is weighed: fractional derivatives along the ant's own way.
+
+use crate::numeric::{OutOfRange, check_range, grunwald_letnikov_weights};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The most steps that a fractional transition remembers.
+pub(super) const MAX_WINDOW: usize = 64;
+
+/// How R, what a corner leaves of a step, and Q, what its way promises, enter the weight
+/// tau^beta1 R^beta2 Q^beta3 of a step (Li 2024, equation 25).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "rule", rename_all = "kebab-case")]
+pub enum ChordTransition {
+    /// By their fractional derivatives along the ant's last steps.
+    Fractional(FractionalTransition),
+    /// As they are.
+    Plain,
+}
+
+/// `D^a1` R and `D^a2` Q of Li 2024 (25-27), Grünwald-Letnikov along the ant's own steps.
+///
+/// Values are relative to the best candidate of their step, and what is left after the
+/// derivative is at least a share of what was there before, since a derivative may be negative.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct FractionalTransition {
+    /// a1: order for corners, from 0 (none) to 1.
+    pub corner_order: f64,
+    /// a2: order for the distance, from 0 (none) to 1.
+    pub distance_order: f64,
+    /// Steps that are remembered, the present one among them, from 1 to 64.
+    pub window: u32,
+    /// The least share that a derivative leaves, from 1e-6 to 1.
+    pub floor: f64,
+}
+
+impl Default for FractionalTransition {
+    fn default() -> Self {
+        Self {
+            corner_order: 0.5,
+            distance_order: 0.5,
+            window: 8,
+            floor: 0.05,
+        }
+    }
+}
+
+impl ChordTransition {
+    pub(super) fn check(&self) -> Result<(), OutOfRange> {
+        let Self::Fractional(rule) = self else {
+            return Ok(());
+        };
+        let orders = [
+            ("chords.transition.corner_order", rule.corner_order),
+            ("chords.transition.distance_order", rule.distance_order),
+        ];
+        for (key, order) in orders {
+            check_range(key, order, 0.0..=1.0)?;
+        }
+        let window = f64::from(rule.window);
+        check_range("chords.transition.window", window, 1.0..=MAX_WINDOW as f64)?;
+        check_range("chords.transition.floor", rule.floor, 1e-6..=1.0)
+    }
+
+    /// The memories of R and Q of an ant.
+    pub(super) fn memories(&self) -> [Memory; 2] {
+        match self {
+            Self::Fractional(rule) => {
+                let window = (rule.window as usize).min(MAX_WINDOW);
+                [rule.corner_order, rule.distance_order]
+                    .map(|order| Memory::new(order, window, rule.floor))
+            }
+            Self::Plain => [0.0; 2].map(|order| Memory::new(order, 1, 1.0)),
+        }
+    }
+}
+
+/// What an ant remembers of its last steps, and how that lowers the values of the next.
+#[derive(Clone, Debug)]
+pub(super) struct Memory {
+    /// Weights of the steps before, the latest first.
+    weights: Vec<f64>,
+    /// Their values, the latest first.
+    values: Vec<f64>,
+    floor: f64,
+}
+
+impl Memory {
+    fn new(order: f64, window: usize, floor: f64) -> Self {
+        let weights = grunwald_letnikov_weights(order, window)[1..].to_vec();
+        Self {
+            values: Vec::with_capacity(weights.len() + 1),
+            weights,
+            floor,
+        }
+    }
+
+    pub(super) fn forget(&mut self) {
+        self.values.clear();
+    }
+
+    /// What the steps before add to the derivative; not positive.
+    pub(super) fn past(&self) -> f64 {
+        let remembered = self.values.iter().zip(&self.weights);
+        remembered.map(|(value, weight)| value * weight).sum()
+    }
+
+    /// The derivative at a step with a value from 0 to 1, given what the past adds to it.
+    #[inline]
+    pub(super) fn derivative(&self, value: f64, past: f64) -> f64 {
+        (value + past).max(self.floor * value)
+    }
+
+    /// Remembers the value of the step taken.
+    pub(super) fn push(&mut self, value: f64) {
+        if self.weights.is_empty() {
+            return;
+        }
+        self.values.truncate(self.weights.len() - 1);
+        self.values.insert(0, value);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numeric::FractionalDerivative;
+
+    #[test]
+    fn is_the_derivative_of_the_steps_taken() {
+        let rule = ChordTransition::Fractional(FractionalTransition::default());
+        let [mut memory, _] = rule.memories();
+        let samples = [1.0, 0.9, 1.0, 0.7, 0.8, 1.0, 0.95, 1.0, 0.9, 1.0];
+        let expected = FractionalDerivative::new(0.5, 1.0).with_window(8).of(&samples);
+        for (value, expected) in samples.into_iter().zip(expected) {
+            let derivative = memory.derivative(value, memory.past());
+            assert!((derivative - expected.max(0.05 * value)).abs() < 1e-12);
+            memory.push(value);
+        }
+        memory.forget();
+        assert_eq!(memory.past(), 0.0);
+    }
+
+    #[test]
+    fn without_an_order_nothing_changes() {
+        let [mut memory, _] = ChordTransition::Plain.memories();
+        memory.push(0.3);
+        assert_eq!(memory.derivative(0.7, memory.past()), 0.7);
+    }
+
+    #[test]
+    fn a_derivative_sets_candidates_farther_apart() {
+        let [mut memory, _] = ChordTransition::Fractional(FractionalTransition::default()).memories();
+        for _ in 0..8 {
+            memory.push(1.0);
+        }
+        let past = memory.past();
+        let ratio = memory.derivative(0.9, past) / memory.derivative(1.0, past);
+        assert!(ratio < 0.6, "{ratio}");
+    }
+}

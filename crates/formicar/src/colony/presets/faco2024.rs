@@ -1,0 +1,46 @@
+//! The fractional-order colony of Li et al. 2024.
+
+use crate::colony::chord::{
+    ChordConfig, ChordTransition, CornerRule, CornerTerm, Corridor, DistanceTerm, DynamicLimit,
+    FootprintSafety, FractionalTransition, KnownLengths, NearShortest, PathSeed, Safety,
+    SpreadDeposit, SteeringLimit,
+};
+use crate::colony::config::Stopping;
+use crate::colony::evaporation::{Evaporation, Generational};
+use crate::colony::heuristic::{Advantage, Guidance};
+use crate::objective::SteeringCost;
+
+/// FACO, Li et al. 2024: ants that step by chords with the steering that a suspended car has,
+/// seeded by a shortest path, and weigh steps by fractional derivatives along their way.
+///
+/// Guidance by advantage and the corridor are ours: without them no ant finds its way over some
+/// hundred cells. The paper's plain form is `guidance` and `corridor` of `none`.
+pub fn faco2024() -> ChordConfig {
+    ChordConfig {
+        n_ants: 50,
+        n_iterations: 50,
+        reach: 5,
+        growth_radii: vec![0.1, 0.0],
+        pheromone_exponent: 1.0,
+        corner_exponent: 1.0,
+        distance_exponent: 1.0,
+        safety: Safety::Footprint(FootprintSafety { margin_cells: 0.5 }),
+        corridor: Corridor::NearShortest(NearShortest {
+            ratio: 1.1,
+            step_detour_cells: 2.5,
+        }),
+        guidance: Guidance::Advantage(Advantage { beta: 1.0 }),
+        corner: CornerTerm::Product(CornerRule::default()),
+        distance: DistanceTerm::KnownLengths(KnownLengths { eta: 1.1 }),
+        limit: SteeringLimit::Dynamic(DynamicLimit::default()),
+        transition: ChordTransition::Fractional(FractionalTransition::default()),
+        initial: PathSeed::default(),
+        evaporation: Evaporation::Generational(Generational::default()),
+        deposit: SpreadDeposit::default(),
+        cost: SteeringCost::default(),
+        stopping: Stopping {
+            stall_iterations: 5,
+            target_cost: 0.0,
+        },
+    }
+}

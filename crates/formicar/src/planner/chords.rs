@@ -1,0 +1,166 @@
+//! Planning by a colony that steps by chords: guide, ants, arcs at every corner.
+
+use super::run::{Ended, Found};
+use super::{PlanError, Planner, PlannerName, Stages};
+use crate::colony::chord::{ChordProblem, run_chords};
+use crate::colony::{RunError, Stop};
+use crate::map::{BitGrid, Cell, DiagonalRule, MoveMasks, ring};
+use crate::numeric::Seed;
+use crate::path::GridPath;
+use crate::progress::{Event, Limits, Status};
+use crate::scenario::{Request, StartHeading};
+use crate::search::SearchError;
+use crate::smoothing::{Ground, SmoothingError, smooth};
+use crate::vehicle::Motion;
+
+impl Planner {
+    /// Sends the colony along a shortest path on ever less grown obstacles until one of its ways
+    /// can be driven.
+    pub(super) fn send_steering_ants(
+        &self,
+        request: &Request,
+        seed: Seed,
+        limits: &mut Limits,
+    ) -> Result<Result<Found, Ended>, PlanError> {
+        if self.vehicle.motion() == Motion::Point {
+            return Err(PlanError::NeedsACar {
+                planner: PlannerName::Faco2024,
+            });
+        }
+        limits.tell(&Event::SearchStarted);
+        let mut last = None;
+        for &growth_radii in &self.config.chords.growth_radii {
+            match self.steer_along(request, seed, growth_radii, limits)? {
+                Ok(found) => return Ok(Ok(found)),
+                Err(ended) => {
+                    let goes_on =
+                        matches!(ended.status, Status::NoPath | Status::Infeasible) || ended.reason.is_some();
+                    last = Some(ended);
+                    if !goes_on {
+                        break;
+                    }
+                }
+            }
+        }
+        Ok(Err(last.unwrap_or(Status::NoPath.into())))
+    }
+
+    /// One run of the colony, guided by a shortest path on obstacles grown by half the vehicle's
+    /// width and some turning radii.
+    fn steer_along(
+        &self,
+        request: &Request,
+        seed: Seed,
+        growth_radii: f64,
+        limits: &mut Limits,
+    ) -> Result<Result<Found, Ended>, PlanError> {
+        let frame = self.obstacles.frame();
+        let start = frame.to_grid(request.start);
+        let cell = |pose: crate::geometry::Pose2| frame.cell_at(pose.position()).unwrap_or_default();
+        let ends = [request.start, request.goal].map(cell);
+        let moves = MoveMasks::new(
+            &self.grown(growth_radii, ends),
+            DiagonalRule::NoObstacles,
+        );
+        let problem = ChordProblem {
+            obstacles: &self.obstacles,
+            vehicle: &self.vehicle,
+            moves: &moves,
+            start,
+            start_heading_is_exact: request.start_heading == StartHeading::Exact,
+            goal: ends[1],
+        };
+        let mut stages = Stages::default();
+        let run = match run_chords(&problem, &self.config.chords, seed, self.n_threads, limits) {
+            Ok(run) => run,
+            Err(RunError::Search(SearchError::Ended { status })) => {
+                return Ok(Err(Ended::new(status, stages)));
+            }
+            Err(error) => return Err(PlanError::Colony(error)),
+        };
+        let ways: Vec<GridPath> = run.best.iter().chain(&run.earlier).cloned().collect();
+        let stop = run.stop;
+        let reason = self.explain_chords(stop, run.history.iterations.len());
+        stages.colony = Some(run);
+        if ways.is_empty() || stop == Stop::Cancelled {
+            return Ok(Err(Ended {
+                reason,
+                ..Ended::new(stop.status(), stages)
+            }));
+        }
+        Ok(self.first_drivable(request, &ways, stages))
+    }
+
+    /// The first of some ways whose corners can all be rounded.
+    fn first_drivable(
+        &self,
+        request: &Request,
+        ways: &[GridPath],
+        mut stages: Stages,
+    ) -> Result<Found, Ended> {
+        let ground = Ground {
+            obstacles: &self.obstacles,
+            vehicle: &self.vehicle,
+            blocked: self.obstacles.lethal(),
+            rule: DiagonalRule::NoObstacles,
+        };
+        let config = &self.config.smoothing;
+        let mut first_error: Option<SmoothingError> = None;
+        for way in ways {
+            let nodes = config.redundant_nodes.apply(ground.blocked, ground.rule, way);
+            match smooth(&ground, config, request, &nodes) {
+                Ok(smoothed) => {
+                    stages.grid_path = Some(way.clone());
+                    stages.nodes = nodes;
+                    stages.corners = smoothed.corners;
+                    return Ok(Found {
+                        path: smoothed.path,
+                        stages,
+                    });
+                }
+                Err(error) => {
+                    first_error.get_or_insert(error);
+                    stages.grid_path.get_or_insert_with(|| way.clone());
+                }
+            }
+        }
+        let error = first_error.map_or(String::new(), |error| format!(", the best of them: {error}"));
+        let reason = format!(
+            "the ants found {} ways that cannot be made drivable{error}; hint: more chords.n_ants, or a larger first one of chords.growth_radii",
+            ways.len()
+        );
+        Err(Ended::because(Status::Infeasible, reason, stages))
+    }
+
+    /// Obstacles grown by half the vehicle's width and some turning radii, but not around the
+    /// ends, where the body is known to be free.
+    fn grown(&self, growth_radii: f64, ends: [Cell; 2]) -> BitGrid {
+        let (obstacles, vehicle) = (&self.obstacles, &self.vehicle);
+        let growth_m = 0.5 * vehicle.width_m() + growth_radii * vehicle.min_turning_radius_m();
+        let limit = f64::from(obstacles.distance().truncation_cells()) - 0.5;
+        let growth = (growth_m / obstacles.frame().resolution_m()).min(limit);
+        let lethal = obstacles.lethal();
+        let mut grown = obstacles.distance().within(growth).unwrap_or_else(|| lethal.clone());
+        let (n_cols, n_rows) = (grown.n_cols(), grown.n_rows());
+        for end in ends {
+            for radius in 0..=growth.ceil() as u32 + 1 {
+                let cells = ring(end, radius, n_cols, n_rows);
+                let free = cells.filter(|cell| !lethal.get(cell.col as usize, cell.row as usize));
+                grown.remove_all(free);
+            }
+        }
+        grown
+    }
+
+    /// Why the colony has no path, where that is its own fault.
+    fn explain_chords(&self, stop: Stop, n_iterations: usize) -> Option<String> {
+        let config = &self.config.chords;
+        match stop {
+            Stop::Iterations | Stop::Stall => Some(format!(
+                "none of {} ants reached the goal in {n_iterations} generations; hint: more ants (chords.n_ants), a wider corridor (chords.corridor.ratio), or hybrid-astar",
+                config.n_ants
+            )),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,434 @@
+//! A* over legs and the arcs between them.
+
+use super::super::open_list::OpenList;
+use super::super::task::Task;
+use super::super::{TurnOrder, TwoTurning};
+use super::sight::{Sight, Sights};
+use crate::geometry::{Arc, Curve, Point2, Pose2, angle_difference};
+use std::collections::HashMap;
+use std::f64::consts::PI;
+
+/// Factor from an arc's radius to the next one tried.
+const TIGHTER: f64 = 0.75;
+/// Turns below this are none, radians.
+const STRAIGHT_RAD: f64 = 1e-9;
+/// The sharpest corner, radians.
+const MAX_TURN_RAD: f64 = 0.75 * PI;
+/// How much of a leg a corner may take where it cannot do with half.
+const CROWDED_SHARE: f64 = 0.95;
+/// How far from the ends curves to given headings begin and end, turning radii.
+const CURVE_REACH_RADII: f64 = 5.0;
+/// Radii of these curves, in turning radii.
+const CURVE_RADII: [f64; 3] = [1.0, 2.0, 4.0];
+/// How many of these curves are tried between two poses, cheapest first.
+const MAX_CURVES: usize = 6;
+
+/// A corner and how it is rounded.
+#[derive(Clone, Copy, Debug)]
+pub(in super::super) struct Rounded {
+    pub(in super::super) place: Point2,
+    pub(in super::super) turning: TwoTurning,
+}
+
+/// A way of straight lines, arcs and curves.
+#[derive(Clone, Debug)]
+pub(in super::super) struct WideWay {
+    pub(in super::super) start: Pose2,
+    pub(in super::super) arcs: Vec<Arc>,
+    pub(in super::super) points: Vec<Point2>,
+    pub(in super::super) corners: Vec<Rounded>,
+}
+
+/// The way of least cost through some of the points of a polyline, its ends among them, with the
+/// headings asked for; none where no such way is free.
+pub(in super::super) fn widest(task: &Task, polyline: &[Point2]) -> Option<WideWay> {
+    let (config, radius_m) = (task.config, task.radius_m);
+    let map = (task.obstacles.lethal(), task.obstacles.frame().resolution_m());
+    let measures = [config.leg_radii, config.corner_radii].map(|radii| radii * radius_m);
+    let mut search = Search {
+        sights: Sights::new(polyline, map, measures)?,
+        task,
+        open: OpenList::default(),
+        legs: Vec::new(),
+        closed: HashMap::new(),
+        curves: Vec::new(),
+    };
+    search.open_start();
+    while let Some(entry) = search.open.pop() {
+        let cost = entry.cost;
+        match entry.item {
+            Step::Lead(from, sight) => search.expand_lead(from, sight),
+            Step::LeadCurve(from, sight, curve) => search.try_lead(from, sight, curve, cost),
+            Step::Turn(leg, sight, radius) => search.try_turn(leg, sight, radius, cost),
+            Step::Tail(leg) => search.expand_tail(leg, cost),
+            Step::TailCurve(leg, curve) if search.is_tail_free(leg, curve) => {
+                return Some(search.way(leg, Some(curve)));
+            }
+            Step::End(leg) if search.is_straight_free(leg, search.legs[leg].sight.distance_m) => {
+                return Some(search.way(leg, None));
+            }
+            Step::TailCurve(..) | Step::End(_) => {}
+        }
+    }
+    None
+}
+
+/// What waits on the list: points, legs and curves by number.
+#[derive(Clone, Copy)]
+enum Step {
+    /// Some curve from the start onto a leg, at a lower bound of its cost.
+    Lead(usize, Sight),
+    /// A curve from the start onto a leg.
+    LeadCurve(usize, Sight, usize),
+    /// From a leg to the next by an arc, the widest times [`TIGHTER`] to a power.
+    Turn(usize, Sight, i32),
+    /// Some curve from the end of a leg to the goal, at a lower bound of its cost.
+    Tail(usize),
+    /// A curve from the end of a leg to the goal.
+    TailCurve(usize, usize),
+    /// A leg that ends at the goal.
+    End(usize),
+}
+
+/// How a leg is reached.
+#[derive(Clone, Copy)]
+enum Reached {
+    /// It begins at the start.
+    AtStart,
+    /// By a curve from the start.
+    ByCurve(usize),
+    /// From a leg, by an arc or straight on.
+    FromLeg(usize, Option<Rounded>),
+}
+
+struct Leg {
+    from: usize,
+    sight: Sight,
+    reached: Reached,
+    /// Where on the leg what leads to it ends, metres.
+    begins_m: f64,
+    /// From there the body is known to be free up to here, and to hit something before there.
+    clear_m: f64,
+    hit_m: f64,
+}
+
+struct Search<'a> {
+    task: &'a Task<'a>,
+    sights: Sights,
+    open: OpenList<Step>,
+    legs: Vec<Leg>,
+    closed: HashMap<(usize, usize), usize>,
+    /// Curves with the poses from which they are driven.
+    curves: Vec<(Pose2, Curve)>,
+}
+
+impl Search<'_> {
+    /// Opens what begins at the start.
+    fn open_start(&mut self) {
+        if self.task.ends.start_is_free {
+            for sight in self.sights.from(0).to_vec() {
+                self.close(0, sight, Reached::AtStart, 0.0, 0.0);
+            }
+            return;
+        }
+        let corner_m = self.corner_m();
+        let start = self.sights.points[0];
+        let near = (1..self.sights.last()).filter(|&i| self.is_near(start, i));
+        for from in near.collect::<Vec<_>>() {
+            let least = start.distance(self.sights.points[from]) + corner_m;
+            for sight in self.sights.from(from).to_vec() {
+                let remaining = sight.distance_m + self.sights.rest_m(sight.to);
+                self.open.push([least, remaining], Step::Lead(from, sight));
+            }
+        }
+    }
+
+    fn is_near(&self, end: Point2, point: usize) -> bool {
+        let reach_m = CURVE_REACH_RADII * self.task.radius_m;
+        end.distance(self.sights.points[point]) <= reach_m
+    }
+
+    fn corner_m(&self) -> f64 {
+        self.task.config.corner_radii * self.task.radius_m
+    }
+
+    /// Puts the cheapest curves from the start onto a leg on the list.
+    fn expand_lead(&mut self, from: usize, sight: Sight) {
+        if self.is_closed(from, sight) {
+            return;
+        }
+        let to = Pose2::at(self.sights.points[from], sight.heading_rad);
+        let remaining = sight.distance_m + self.sights.rest_m(sight.to);
+        for (cost, start, curve) in self.cheapest_curves(&self.task.ends.starts, &[to]) {
+            let number = self.curves.len();
+            self.curves.push((start, curve));
+            let step = Step::LeadCurve(from, sight, number);
+            self.open.push([cost, remaining], step);
+        }
+    }
+
+    /// The cheapest curves from one of some poses to one of others.
+    fn cheapest_curves(&self, from: &[Pose2], to: &[Pose2]) -> Vec<(f64, Pose2, Curve)> {
+        let mut curves = Vec::new();
+        for (&a, &b) in from.iter().flat_map(|a| to.iter().map(move |b| (a, b))) {
+            for radii in CURVE_RADII {
+                let words = self.task.words_at(a, b, radii * self.task.radius_m);
+                curves.extend(words.into_iter().map(|curve| (self.curve_cost(&curve), a, curve)));
+            }
+        }
+        curves.sort_by(|a, b| a.0.total_cmp(&b.0));
+        curves.truncate(MAX_CURVES);
+        curves
+    }
+
+    /// A curve's cost: driving, and for each arc a corner's share and its bend.
+    fn curve_cost(&self, curve: &Curve) -> f64 {
+        let radius_m = self.task.radius_m;
+        let bends = curve.arcs().iter().filter(|arc| arc.curvature_per_m != 0.0);
+        let bends = bends.map(|arc| {
+            let bend = (arc.curvature_per_m * radius_m).powi(2) * arc.length_m();
+            self.corner_m() + self.task.config.bend_weight * bend
+        });
+        self.task.word_cost(curve, [0.0; 2]) + bends.sum::<f64>()
+    }
+
+    fn try_lead(&mut self, from: usize, sight: Sight, curve: usize, cost: f64) {
+        let (start, arcs) = &self.curves[curve];
+        let ends_forward = |arcs: &[Arc]| arcs.last().is_none_or(|arc| arc.signed_length_m > 0.0);
+        let switch = if ends_forward(arcs.arcs()) {
+            0.0
+        } else {
+            self.task.config.direction_switching_cost
+        };
+        if !self.is_closed(from, sight) && self.task.all_free(*start, arcs.arcs()) {
+            self.close(from, sight, Reached::ByCurve(curve), 0.0, cost + switch);
+        }
+    }
+
+    fn is_closed(&self, from: usize, sight: Sight) -> bool {
+        self.closed.contains_key(&(from, sight.to))
+    }
+
+    /// Keeps a leg that is reached at a cost, and opens what may follow it.
+    fn close(&mut self, from: usize, sight: Sight, reached: Reached, begins_m: f64, cost: f64) {
+        let number = self.legs.len();
+        self.closed.insert((from, sight.to), number);
+        self.legs.push(Leg {
+            from,
+            sight,
+            reached,
+            begins_m,
+            clear_m: begins_m,
+            hit_m: f64::INFINITY,
+        });
+        let cost = cost + sight.distance_m;
+        if sight.to == self.sights.last() {
+            if self.task.ends.goal_is_free {
+                self.open.push([cost, 0.0], Step::End(number));
+            }
+            return;
+        }
+        let goal = self.sights.points[self.sights.last()];
+        if !self.task.ends.goal_is_free && self.is_near(goal, sight.to) {
+            let least = goal.distance(self.sights.points[sight.to]) + self.corner_m();
+            self.open.push([cost, least], Step::Tail(number));
+        }
+        for next in self.sights.from(sight.to).to_vec() {
+            if !self.is_closed(sight.to, next) {
+                self.open_turn(number, next, 0, cost);
+            }
+        }
+    }
+
+    /// Opens the turn from a leg to a next one by an arc; `cost` is that up to the corner.
+    fn open_turn(&mut self, leg: usize, next: Sight, radius: i32, cost: f64) {
+        let Some(fillet) = self.fillet(leg, next, radius) else {
+            return;
+        };
+        let remaining = self.fillet_cost(&fillet) + next.distance_m + self.sights.rest_m(next.to);
+        self.open.push([cost, remaining], Step::Turn(leg, next, radius));
+    }
+
+    /// The arc at the end of a leg; none where the legs have no room for one or the turn is too
+    /// sharp.
+    fn fillet(&self, leg: usize, next: Sight, radius: i32) -> Option<Fillet> {
+        let Leg { sight, begins_m, .. } = self.legs[leg];
+        let turn_rad = angle_difference(next.heading_rad, sight.heading_rad);
+        if turn_rad.abs() < STRAIGHT_RAD {
+            return (radius == 0).then_some(Fillet::default());
+        }
+        if turn_rad.abs() > MAX_TURN_RAD {
+            return None;
+        }
+        let tangent = (0.5 * turn_rad.abs()).tan();
+        let least_m = self.task.radius_m;
+        // The next corner needs room too; at a free goal there is none.
+        let is_last = next.to == self.sights.last() && self.task.ends.goal_is_free;
+        let share = match least_m * tangent {
+            _ if is_last => 1.0,
+            least if least <= 0.5 * next.distance_m => 0.5,
+            _ => CROWDED_SHARE,
+        };
+        let room_m = (sight.distance_m - begins_m).min(share * next.distance_m);
+        let widest_m = (room_m / tangent).min(self.task.config.max_arc_radii * least_m);
+        let wanted_m = widest_m * TIGHTER.powi(radius);
+        let radius_m = if wanted_m >= least_m {
+            wanted_m
+        } else if widest_m >= least_m && wanted_m > TIGHTER * least_m {
+            // The tightest of all is tried once, too.
+            least_m
+        } else {
+            return None;
+        };
+        Some(Fillet {
+            turn_rad,
+            radius_m,
+            tangent_m: radius_m * tangent,
+        })
+    }
+
+    /// What a corner costs beyond the length of its legs, metres.
+    fn fillet_cost(&self, fillet: &Fillet) -> f64 {
+        if fillet.turn_rad == 0.0 {
+            return 0.0;
+        }
+        let (config, least_m) = (self.task.config, self.task.radius_m);
+        let bend = fillet.turn_rad.abs() * least_m * least_m / fillet.radius_m;
+        let shortened = 2.0 * fillet.tangent_m - fillet.turn_rad.abs() * fillet.radius_m;
+        self.corner_m() + config.bend_weight * bend - shortened
+    }
+
+    /// Takes a turn if the body is free on the straight before it and on its arc; else opens the
+    /// next tighter one.
+    fn try_turn(&mut self, leg: usize, next: Sight, radius: i32, cost: f64) {
+        let from = self.legs[leg].sight.to;
+        if self.is_closed(from, next) {
+            return;
+        }
+        let Some(fillet) = self.fillet(leg, next, radius) else {
+            return;
+        };
+        let ends_m = self.legs[leg].sight.distance_m - fillet.tangent_m;
+        let is_free = self.is_straight_free(leg, ends_m) && self.is_arc_free(leg, ends_m, &fillet);
+        if !is_free {
+            self.open_turn(leg, next, radius + 1, cost);
+            return;
+        }
+        let rounded = fillet.turning().map(|turning| Rounded {
+            place: self.sights.points[from],
+            turning,
+        });
+        let cost = cost + self.fillet_cost(&fillet);
+        self.close(from, next, Reached::FromLeg(leg, rounded), fillet.tangent_m, cost);
+    }
+
+    /// The pose on a leg, some metres from its beginning.
+    fn pose(&self, leg: usize, at_m: f64) -> Pose2 {
+        let Leg { from, sight, .. } = self.legs[leg];
+        Pose2::at(self.sights.points[from], sight.heading_rad).advance(0.0, at_m)
+    }
+
+    /// Whether the body is free from where a leg begins up to some metres from its first point.
+    fn is_straight_free(&mut self, leg: usize, up_to_m: f64) -> bool {
+        let Leg { clear_m, hit_m, .. } = self.legs[leg];
+        if up_to_m <= clear_m {
+            return true;
+        }
+        if up_to_m >= hit_m {
+            return false;
+        }
+        let arc = Arc::new(0.0, up_to_m - clear_m);
+        let is_free = self.task.all_free(self.pose(leg, clear_m), &[arc]);
+        let known = &mut self.legs[leg];
+        if is_free {
+            known.clear_m = up_to_m;
+        } else {
+            known.hit_m = up_to_m;
+        }
+        is_free
+    }
+
+    fn is_arc_free(&self, leg: usize, from_m: f64, fillet: &Fillet) -> bool {
+        self.task.all_free(self.pose(leg, from_m), &[fillet.arc()])
+    }
+
+    /// Puts the cheapest curves from the end of a leg to the goal on the list.
+    fn expand_tail(&mut self, leg: usize, cost: f64) {
+        let from = self.pose(leg, self.legs[leg].sight.distance_m);
+        for (curve_cost, start, curve) in self.cheapest_curves(&[from], &self.task.ends.goals) {
+            let number = self.curves.len();
+            self.curves.push((start, curve));
+            self.open.push([cost + curve_cost, 0.0], Step::TailCurve(leg, number));
+        }
+    }
+
+    fn is_tail_free(&mut self, leg: usize, curve: usize) -> bool {
+        let length_m = self.legs[leg].sight.distance_m;
+        let (start, curve) = &self.curves[curve];
+        self.task.all_free(*start, curve.arcs()) && self.is_straight_free(leg, length_m)
+    }
+
+    /// The way that ends with a leg and, where the goal's heading is given, a curve.
+    fn way(&self, last: usize, tail: Option<usize>) -> WideWay {
+        let mut legs = vec![last];
+        while let Reached::FromLeg(before, _) = self.legs[legs[legs.len() - 1]].reached {
+            legs.push(before);
+        }
+        legs.reverse();
+        let first = &self.legs[legs[0]];
+        let (start, mut arcs) = match first.reached {
+            Reached::ByCurve(curve) => {
+                let (start, curve) = &self.curves[curve];
+                (*start, curve.arcs().to_vec())
+            }
+            _ => (self.pose(legs[0], 0.0), Vec::new()),
+        };
+        let mut corners = Vec::new();
+        for (i, &leg) in legs.iter().enumerate() {
+            let corner = legs.get(i + 1).and_then(|&next| match self.legs[next].reached {
+                Reached::FromLeg(_, corner) => corner,
+                _ => None,
+            });
+            let before_m = corner.map_or(0.0, |corner| corner.turning.before_m);
+            let length_m = self.legs[leg].sight.distance_m;
+            arcs.push(Arc::new(0.0, length_m - before_m - self.legs[leg].begins_m));
+            arcs.extend(corner.map(|corner| corner.turning.arcs()[0]));
+            corners.extend(corner);
+        }
+        arcs.extend(tail.iter().flat_map(|&tail| self.curves[tail].1.arcs()));
+        let mut points = vec![self.sights.points[0]];
+        points.extend(legs.iter().map(|&leg| self.sights.points[self.legs[leg].from]));
+        points.push(self.sights.points[self.legs[last].sight.to]);
+        points.push(self.sights.points[self.sights.last()]);
+        points.dedup();
+        WideWay {
+            start,
+            arcs,
+            points,
+            corners,
+        }
+    }
+}
+
+/// An arc that rounds a corner; one without a turn goes straight on.
+#[derive(Clone, Copy, Debug, Default)]
+struct Fillet {
+    turn_rad: f64,
+    radius_m: f64,
+    /// From where the arc begins to the corner, and from there to where it ends, metres.
+    tangent_m: f64,
+}
+
+impl Fillet {
+    fn arc(&self) -> Arc {
+        if self.turn_rad == 0.0 {
+            return Arc::new(0.0, 0.0);
+        }
+        let length_m = self.turn_rad.abs() * self.radius_m;
+        Arc::new(self.turn_rad.signum() / self.radius_m, length_m)
+    }
+
+    fn turning(&self) -> Option<TwoTurning> {
+        TwoTurning::new(self.turn_rad, self.radius_m, TurnOrder::AvoidFirst, 0.0)
+    }
+}

@@ -1,0 +1,134 @@
+//! Which points of a polyline see which, and what the rest of the way costs at least.
+
+use crate::geometry::Point2;
+use crate::map::{BitGrid, DiagonalRule, line_of_sight};
+use std::ops::Range;
+
+/// Points nearer to each other than this are one, metres.
+const SAME_PLACE_M: f64 = 1e-9;
+/// Points looked at one by one from a point; those after them with growing gaps.
+const N_NEAR: usize = 12;
+
+/// A later point that is seen from a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sight {
+    pub(super) to: usize,
+    pub(super) distance_m: f64,
+    pub(super) heading_rad: f64,
+}
+
+/// The points of a polyline with what each sees.
+pub(super) struct Sights {
+    pub(super) points: Vec<Point2>,
+    all: Vec<Sight>,
+    /// Of each point, its part of `all`.
+    ranges: Vec<Range<usize>>,
+    /// The least that the way from each point to the last costs, metres.
+    rest: Vec<f64>,
+}
+
+impl Sights {
+    /// None where the polyline does not move. Points see each other over at most `reach_m` where
+    /// no lethal cell lies between; a corner costs `corner_m`.
+    pub(super) fn new(
+        polyline: &[Point2],
+        (lethal, resolution_m): (&BitGrid, f64),
+        [reach_m, corner_m]: [f64; 2],
+    ) -> Option<Self> {
+        let mut points = polyline.to_vec();
+        points.dedup_by(|a, b| a.distance(*b) < SAME_PLACE_M);
+        if points.len() < 2 {
+            return None;
+        }
+        let scale = 1.0 / resolution_m;
+        let sees = |a: Point2, b: Point2| {
+            line_of_sight(lethal, DiagonalRule::NoObstacles, a * scale, b * scale)
+        };
+        let (mut all, mut ranges) = (Vec::new(), Vec::new());
+        for (from, &at) in points.iter().enumerate() {
+            let first = all.len();
+            for to in ahead(from, points.len() - 1) {
+                let step = points[to] - at;
+                let distance_m = step.norm();
+                if distance_m <= reach_m && distance_m > SAME_PLACE_M && sees(at, points[to]) {
+                    all.push(Sight {
+                        to,
+                        distance_m,
+                        heading_rad: step.angle(),
+                    });
+                }
+            }
+            ranges.push(first..all.len());
+        }
+        let mut sights = Self {
+            rest: vec![f64::INFINITY; points.len()],
+            points,
+            all,
+            ranges,
+        };
+        sights.measure_rest(corner_m);
+        Some(sights)
+    }
+
+    fn measure_rest(&mut self, corner_m: f64) {
+        let last = self.last();
+        self.rest[last] = 0.0;
+        for from in (0..last).rev() {
+            let through = self.from(from).iter().map(|sight| {
+                let corner_m = if sight.to == last { 0.0 } else { corner_m };
+                sight.distance_m + corner_m + self.rest[sight.to]
+            });
+            self.rest[from] = through.fold(f64::INFINITY, f64::min);
+        }
+    }
+
+    pub(super) fn last(&self) -> usize {
+        self.points.len() - 1
+    }
+
+    /// What a point sees.
+    pub(super) fn from(&self, point: usize) -> &[Sight] {
+        &self.all[self.ranges[point].clone()]
+    }
+
+    /// The least that the way from a point to the last costs, metres; corners there count, the one
+    /// at the point does not.
+    pub(super) fn rest_m(&self, point: usize) -> f64 {
+        self.rest[point]
+    }
+}
+
+/// The points after one: near ones one by one, then with growing gaps, the last one always.
+fn ahead(from: usize, last: usize) -> impl Iterator<Item = usize> {
+    let mut next = from + 1;
+    std::iter::from_fn(move || {
+        let here = next;
+        let gap = 1 + (here - from) / N_NEAR;
+        next = if here < last { (here + gap).min(last) } else { last + 1 };
+        (here <= last).then_some(here)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::map::OccupancyGrid;
+
+    #[test]
+    fn every_point_has_its_neighbors_ahead_and_the_last() {
+        let seen: Vec<usize> = ahead(3, 40).collect();
+        assert_eq!(seen[..13], (4..17).collect::<Vec<_>>()[..]);
+        assert!(seen[11..].windows(2).all(|w| w[1] > w[0]) && seen.last() == Some(&40));
+        assert_eq!(ahead(5, 5).count(), 0);
+    }
+
+    #[test]
+    fn walls_hide_points_and_lengthen_what_remains() {
+        let map = OccupancyGrid::from_rows(&["....", ".##.", "...."], 1.0).unwrap();
+        let points = [(0.5, 0.5), (0.5, 2.5), (3.5, 2.5)].map(|(x, y)| Point2::new(x, y));
+        let sights = Sights::new(&points, (&map.lethal_cells(), 1.0), [100.0, 0.5]).unwrap();
+        let seen = |from: usize| sights.from(from).iter().map(|s| s.to).collect::<Vec<_>>();
+        assert_eq!((seen(0), seen(1)), (vec![1], vec![2]));
+        assert_eq!([0, 1, 2].map(|i| sights.rest_m(i)), [5.5, 3.0, 0.0]);
+    }
+}
