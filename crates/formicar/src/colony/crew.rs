@@ -13,7 +13,13 @@ pub(super) trait Walk: Send {
     type Part: Part;
 
     /// Sends some ants of an iteration, and adds their ways to a part of it.
-    fn send(&mut self, shared: &Self::Shared, iteration: u32, ants: Range<u32>, part: &mut Self::Part);
+    fn send(
+        &mut self,
+        shared: &Self::Shared,
+        iteration: u32,
+        ants: Range<u32>,
+        part: &mut Self::Part,
+    );
 }
 
 /// The ways of some ants of an iteration, in their order.

@@ -199,10 +199,11 @@ impl<'a> Colony<'a> {
 
     /// Evaporates, deposits, keeps the limits.
     fn update(&mut self, iteration: u32, generation: &Generation) -> IterationRecord {
-        let rho = self
-            .config
-            .evaporation
-            .rho(iteration, self.config.n_iterations, self.memory.n_stagnant);
+        let rho = self.config.evaporation.rho(
+            iteration,
+            self.config.n_iterations,
+            self.memory.n_stagnant,
+        );
         self.trails.evaporate(rho);
         let deposits = self
             .config

@@ -28,17 +28,14 @@ struct Mask {
 impl SweptMasks {
     /// Masks of a vehicle with a margin around its body for steps given in cells, `(0, 0)` not
     /// among them, on cells of a size.
-    pub fn new(
-        vehicle: &Vehicle,
-        margin_m: f64,
-        steps: &[(i32, i32)],
-        resolution_m: f64,
-    ) -> Self {
+    pub fn new(vehicle: &Vehicle, margin_m: f64, steps: &[(i32, i32)], resolution_m: f64) -> Self {
         let body = vehicle.footprint().grown(margin_m);
         let mask = |&(dx, dy): &(i32, i32)| {
             let step = Point2::new(f64::from(dx), f64::from(dy)) * resolution_m;
             let poses = [Point2::default(), step].map(|p| Pose2::at(p, step.angle()));
-            let corners = poses.map(|pose| body.placed(pose).corners().to_vec()).concat();
+            let corners = poses
+                .map(|pose| body.placed(pose).corners().to_vec())
+                .concat();
             let swept = ConvexPolygon::hull(&corners).expect("a moved body has an area");
             Mask::of(&swept, resolution_m)
         };
@@ -55,7 +52,10 @@ impl SweptMasks {
     /// The cells swept on a step from a cell, in rows from below; those off the map too.
     pub fn swept(&self, from: Cell, step: usize) -> impl Iterator<Item = (i64, i64)> + '_ {
         let mask = &self.masks[step];
-        let low = (i64::from(from.col) + mask.low.0, i64::from(from.row) + mask.low.1);
+        let low = (
+            i64::from(from.col) + mask.low.0,
+            i64::from(from.row) + mask.low.1,
+        );
         let rows = mask.words.chunks(mask.words_per_row).enumerate();
         rows.flat_map(move |(row, words)| {
             let columns = (0..mask.n_cols).filter(|col| words[col / 64] >> (col % 64) & 1 == 1);
@@ -95,7 +95,10 @@ impl Mask {
 
     #[inline]
     fn is_clear(&self, obstacles: &BitGrid, from: Cell) -> bool {
-        let (col, row) = (i64::from(from.col) + self.low.0, i64::from(from.row) + self.low.1);
+        let (col, row) = (
+            i64::from(from.col) + self.low.0,
+            i64::from(from.row) + self.low.1,
+        );
         let n_rows = (self.words.len() / self.words_per_row) as i64;
         let is_inside = col >= 0
             && row >= 0
@@ -120,7 +123,9 @@ fn hits(mask: &[u64], obstacles: &[u64], shift: usize) -> u64 {
     for (w, &mask) in mask.iter().enumerate() {
         let low = obstacles[w] >> shift;
         // Shifted twice, so that a shift by a whole word is none.
-        let high = obstacles.get(w + 1).map_or(0, |next| next << 1 << (63 - shift));
+        let high = obstacles
+            .get(w + 1)
+            .map_or(0, |next| next << 1 << (63 - shift));
         hit |= mask & (low | high);
     }
     hit
@@ -196,12 +201,20 @@ mod tests {
         let (left, right) = swept.iter().fold((600, 0), |(low, high), cell| {
             (cell.0.min(low), cell.0.max(high))
         });
-        for (col, is_clear) in [(left - 1, true), (left, false), (right, false), (right + 1, true)] {
+        for (col, is_clear) in [
+            (left - 1, true),
+            (left, false),
+            (right, false),
+            (right + 1, true),
+        ] {
             let cell = Cell::new(col as u32, 50);
             obstacles.insert(cell);
             assert_eq!(masks.is_clear(&obstacles, from, 0), is_clear, "{col}");
             obstacles.remove(cell);
         }
-        assert!(!masks.is_clear(&obstacles, Cell::new(10, 50), 0), "off the map");
+        assert!(
+            !masks.is_clear(&obstacles, Cell::new(10, 50), 0),
+            "off the map"
+        );
     }
 }

@@ -65,6 +65,7 @@ impl FractionalDerivative {
     /// The same for samples that come one after the other.
     pub fn stream(&self) -> FractionalStream {
         FractionalStream {
+            scale: self.scale(),
             derivative: self.clone(),
             weights: Vec::new(),
             past: VecDeque::new(),
@@ -81,6 +82,8 @@ impl FractionalDerivative {
 #[derive(Clone, Debug, PartialEq)]
 pub struct FractionalStream {
     derivative: FractionalDerivative,
+    /// h^-a.
+    scale: f64,
     weights: Vec<f64>,
     /// Samples, the latest first.
     past: VecDeque<f64>,
@@ -93,7 +96,7 @@ impl FractionalStream {
         if let Some(window) = self.derivative.window {
             self.past.truncate(window);
         }
-        self.derivative.scale() * sample + self.scaled_memory(1)
+        self.scale * sample + self.scaled_memory(1)
     }
 
     /// What samples before the next one contribute to its derivative: all but h^-a times that
@@ -105,14 +108,14 @@ impl FractionalStream {
         }
         self.grow_weights(self.past.len() + 1);
         let past = self.past.iter().zip(&self.weights[1..]);
-        self.derivative.scale() * past.map(|(f, w)| f * w).sum::<f64>()
+        self.scale * past.map(|(f, w)| f * w).sum::<f64>()
     }
 
     /// What samples from the `first` latest on contribute.
     fn scaled_memory(&mut self, first: usize) -> f64 {
         self.grow_weights(self.past.len());
         let past = self.past.iter().zip(&self.weights).skip(first);
-        self.derivative.scale() * past.map(|(f, w)| f * w).sum::<f64>()
+        self.scale * past.map(|(f, w)| f * w).sum::<f64>()
     }
 
     fn grow_weights(&mut self, n: usize) {

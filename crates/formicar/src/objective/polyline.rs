@@ -150,11 +150,16 @@ impl SteeringMeter {
     /// Takes a step of a positive length after a turn.
     pub fn take(&mut self, turn_rad: f64, length_m: f64) {
         let needed_rad = (self.wheelbase_m * turn_rad.abs() / length_m).atan();
+        self.take_needing(needed_rad, turn_rad, length_m);
+    }
+
+    /// The same where the steering that the turn needs is known.
+    pub fn take_needing(&mut self, needed_rad: f64, turn_rad: f64, length_m: f64) {
         let ratio = needed_rad / self.limit_rad;
         // Li 2024 (18) without epsilon and the factor of the generation.
         self.steering += self.straightness.with(turn_rad.abs(), length_m) * ratio;
         self.straightness.push(turn_rad.abs(), length_m);
-        self.limit_rad = self.suspended.advance(turn_rad, length_m).limit_rad;
+        self.limit_rad = self.suspended.advance_limit_rad(turn_rad, length_m);
         self.n_steps += 1;
         self.length_m += length_m;
         self.max_ratio = self.max_ratio.max(ratio);

@@ -2,8 +2,9 @@
 
 use super::run::{Ended, Found};
 use super::{PlanError, Planner, PlannerName, Stages};
-use crate::colony::chord::{ChordProblem, run_chords};
+use crate::colony::chord::{ChordConfig, ChordProblem, Safety, run_chords};
 use crate::colony::{RunError, Stop};
+use crate::geometry::Pose2;
 use crate::map::{BitGrid, Cell, DiagonalRule, MoveMasks, ring};
 use crate::numeric::Seed;
 use crate::path::GridPath;
@@ -13,9 +14,18 @@ use crate::search::SearchError;
 use crate::smoothing::{Ground, SmoothingError, smooth};
 use crate::vehicle::Motion;
 
+/// One way of sending the colony.
+#[derive(Clone)]
+struct Attempt {
+    /// By how many turning radii obstacles are grown beyond half the vehicle's width for the
+    /// guiding path.
+    growth_radii: f64,
+    config: ChordConfig,
+    start_heading_is_exact: bool,
+}
+
 impl Planner {
-    /// Sends the colony along a shortest path on ever less grown obstacles until one of its ways
-    /// can be driven.
+    /// Sends the colony, each time less careful, until one of its ways can be driven.
     pub(super) fn send_steering_ants(
         &self,
         request: &Request,
@@ -28,50 +38,73 @@ impl Planner {
             });
         }
         limits.tell(&Event::SearchStarted);
-        let mut last = None;
-        for &growth_radii in &self.config.chords.growth_radii {
-            match self.steer_along(request, seed, growth_radii, limits)? {
+        let mut last = Ended::from(Status::NoPath);
+        for attempt in self.attempts(request) {
+            match self.steer(request, &attempt, seed, limits)? {
                 Ok(found) => return Ok(Ok(found)),
-                Err(ended) => {
-                    let goes_on =
-                        matches!(ended.status, Status::NoPath | Status::Infeasible) || ended.reason.is_some();
-                    last = Some(ended);
-                    if !goes_on {
-                        break;
-                    }
-                }
+                Err(ended) => last = ended,
+            }
+            let goes_on = match last.status {
+                Status::NoPath | Status::Infeasible => true,
+                // Of the ants; the request's own budget has no reason of theirs.
+                Status::BudgetExhausted => last.reason.is_some(),
+                _ => false,
+            };
+            if !goes_on {
+                break;
             }
         }
-        Ok(Err(last.unwrap_or(Status::NoPath.into())))
+        Ok(Err(last))
     }
 
-    /// One run of the colony, guided by a shortest path on obstacles grown by half the vehicle's
-    /// width and some turning radii.
-    fn steer_along(
+    /// What is tried in turn: ever less growth, no margin, and a start where the vehicle changes
+    /// gear.
+    fn attempts(&self, request: &Request) -> Vec<Attempt> {
+        let config = &self.config.chords;
+        let exact = request.start_heading == StartHeading::Exact;
+        let attempt = |&growth_radii: &f64| Attempt {
+            growth_radii,
+            config: config.clone(),
+            start_heading_is_exact: exact,
+        };
+        let mut attempts: Vec<Attempt> = config.growth_radii.iter().map(attempt).collect();
+        let last_growth = config.growth_radii[config.growth_radii.len() - 1];
+        let mut last = attempt(&last_growth);
+        if let Safety::Footprint(rule) = &mut last.config.safety
+            && rule.margin_cells > 0.0
+        {
+            rule.margin_cells = 0.0;
+            attempts.push(last.clone());
+        }
+        if exact {
+            last.start_heading_is_exact = false;
+            attempts.push(last);
+        }
+        attempts
+    }
+
+    /// One run of the colony, and the first of its ways that can be driven.
+    fn steer(
         &self,
         request: &Request,
+        attempt: &Attempt,
         seed: Seed,
-        growth_radii: f64,
         limits: &mut Limits,
     ) -> Result<Result<Found, Ended>, PlanError> {
         let frame = self.obstacles.frame();
-        let start = frame.to_grid(request.start);
-        let cell = |pose: crate::geometry::Pose2| frame.cell_at(pose.position()).unwrap_or_default();
+        let cell = |pose: Pose2| frame.cell_at(pose.position()).unwrap_or_default();
         let ends = [request.start, request.goal].map(cell);
-        let moves = MoveMasks::new(
-            &self.grown(growth_radii, ends),
-            DiagonalRule::NoObstacles,
-        );
+        let grown = self.grown(attempt.growth_radii, ends);
         let problem = ChordProblem {
             obstacles: &self.obstacles,
             vehicle: &self.vehicle,
-            moves: &moves,
-            start,
-            start_heading_is_exact: request.start_heading == StartHeading::Exact,
+            moves: &MoveMasks::new(&grown, DiagonalRule::NoObstacles),
+            start: frame.to_grid(request.start),
+            start_heading_is_exact: attempt.start_heading_is_exact,
             goal: ends[1],
         };
         let mut stages = Stages::default();
-        let run = match run_chords(&problem, &self.config.chords, seed, self.n_threads, limits) {
+        let run = match run_chords(&problem, &attempt.config, seed, self.n_threads, limits) {
             Ok(run) => run,
             Err(RunError::Search(SearchError::Ended { status })) => {
                 return Ok(Err(Ended::new(status, stages)));
@@ -107,7 +140,9 @@ impl Planner {
         let config = &self.config.smoothing;
         let mut first_error: Option<SmoothingError> = None;
         for way in ways {
-            let nodes = config.redundant_nodes.apply(ground.blocked, ground.rule, way);
+            let nodes = config
+                .redundant_nodes
+                .apply(ground.blocked, ground.rule, way);
             match smooth(&ground, config, request, &nodes) {
                 Ok(smoothed) => {
                     stages.grid_path = Some(way.clone());
@@ -124,7 +159,9 @@ impl Planner {
                 }
             }
         }
-        let error = first_error.map_or(String::new(), |error| format!(", the best of them: {error}"));
+        let error = first_error.map_or(String::new(), |error| {
+            format!(", the best of them: {error}")
+        });
         let reason = format!(
             "the ants found {} ways that cannot be made drivable{error}; hint: more chords.n_ants, or a larger first one of chords.growth_radii",
             ways.len()
@@ -140,7 +177,10 @@ impl Planner {
         let limit = f64::from(obstacles.distance().truncation_cells()) - 0.5;
         let growth = (growth_m / obstacles.frame().resolution_m()).min(limit);
         let lethal = obstacles.lethal();
-        let mut grown = obstacles.distance().within(growth).unwrap_or_else(|| lethal.clone());
+        let mut grown = obstacles
+            .distance()
+            .within(growth)
+            .unwrap_or_else(|| lethal.clone());
         let (n_cols, n_rows) = (grown.n_cols(), grown.n_rows());
         for end in ends {
             for radius in 0..=growth.ceil() as u32 + 1 {

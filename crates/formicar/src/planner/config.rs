@@ -218,6 +218,7 @@ impl PlannerConfig {
                 PlannerName::Faco2024 => SmoothingConfig {
                     redundant_nodes: RedundantNodes::Keep,
                     corners: Corners::WideArcs,
+                    direction_switching_cost: 10.0,
                     ..SmoothingConfig::default()
                 },
                 _ => SmoothingConfig::default(),

@@ -230,7 +230,9 @@ impl<'a> Search<'a> {
         let end_m = map.s_m(place) + self.task.reach_m();
         let later = match self.task.config.corners {
             Corners::TwoTurning => 0..0,
-            Corners::TwoTurningOrDubins | Corners::WideArcs => map.legs[map.places[place].leg].end..map.places.len(),
+            Corners::TwoTurningOrDubins | Corners::WideArcs => {
+                map.legs[map.places[place].leg].end..map.places.len()
+            }
         };
         let near = later.take_while(move |&to| map.s_m(to) <= end_m);
         near.filter(|&to| map.is_station(to))

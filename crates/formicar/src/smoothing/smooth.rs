@@ -199,9 +199,14 @@ fn assembled(ground: &Ground, request: &Request, map: &Roadmap, pieces: &[Piece]
 /// The way by wide arcs that keeps a margin or, where there is none, one that keeps none.
 fn widest_with_margin(ground: &Ground, task: &Task, points: &[Point2]) -> Option<WideWay> {
     let own_m = ground.vehicle.parameters().safety_margin_m.unwrap_or(0.0);
-    let wider = ground.vehicle.with_safety_margin(own_m + task.config.arc_margin_m);
+    let wider = ground
+        .vehicle
+        .with_safety_margin(own_m + task.config.arc_margin_m);
     let body = wider.map(|vehicle| Body::new(&vehicle)).ok()?;
-    let careful = Task { body: &body, ..*task };
+    let careful = Task {
+        body: &body,
+        ..*task
+    };
     widest(&careful, points).or_else(|| widest(task, points))
 }
 

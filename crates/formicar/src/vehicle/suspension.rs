@@ -110,8 +110,10 @@ pub struct SteeringDemand {
 pub struct SuspendedSteering {
     parameters: SuspensionParameters,
     wheelbase_m: f64,
-    max_steer_rad: f64,
-    step_m: f64,
+    /// Tangent of the largest steering.
+    max_tangent: f64,
+    /// c / k h^-gamma.
+    damping: f64,
     deflections: FractionalStream,
     headings: FadingMean,
     arcs: FadingMean,
@@ -135,8 +137,8 @@ impl SuspendedSteering {
         let derivative = FractionalDerivative::new(order, time_step_s).with_window(window);
         Ok(Self {
             wheelbase_m,
-            max_steer_rad,
-            step_m,
+            max_tangent: max_steer_rad.tan(),
+            damping: parameters.relaxation * time_step_s.powf(-order),
             deflections: derivative.stream(),
             headings: FadingMean::new(parameters.heading_order, window),
             arcs: FadingMean::new(parameters.arc_order, window),
@@ -146,25 +148,44 @@ impl SuspendedSteering {
 
     /// Takes a step that turns the heading and covers some arc length, which must be positive.
     pub fn advance(&mut self, turn_rad: f64, length_m: f64) -> SteeringDemand {
-        // Li 2024 (10-11) as read: fading means of the increments, so that K is the curvature at
-        // order 1, and on any circle.
-        let curvature = self.headings.push(turn_rad) / self.arcs.push(length_m);
-        let deflection = self.deflect(curvature);
-        let p = &self.parameters;
-        let x = self.wheelbase_m + p.forward_gain * deflection.abs();
-        let y = p.inward_gain * deflection;
-        // (12): the wheel at (x, y) moves along (1 - y K, x K).
-        let needed = (x * curvature).atan2(1.0 - y * curvature);
-        // (13-14): the curvature that the displaced wheel reaches at the steering limit.
-        let tangent = self.max_steer_rad.tan();
-        let reached = tangent / (x + y.abs() * tangent);
+        let (curvature, deflection) = self.feel(turn_rad, length_m);
+        let (x, y) = self.wheel_m(deflection);
         SteeringDemand {
             curvature_per_m: curvature,
             deflection_m: deflection,
             wheel_m: (x, y),
-            needed_rad: needed,
-            limit_rad: (self.wheelbase_m * reached).atan(),
+            // (12): the wheel at (x, y) moves along (1 - y K, x K).
+            needed_rad: (x * curvature).atan2(1.0 - y * curvature),
+            limit_rad: self.limit_rad((x, y)),
         }
+    }
+
+    /// Takes a step as [`Self::advance`] does, and tells the limit alone.
+    pub fn advance_limit_rad(&mut self, turn_rad: f64, length_m: f64) -> f64 {
+        let (_, deflection) = self.feel(turn_rad, length_m);
+        self.limit_rad(self.wheel_m(deflection))
+    }
+
+    /// Curvature as it is felt on a step, and the deflection after it.
+    fn feel(&mut self, turn_rad: f64, length_m: f64) -> (f64, f64) {
+        // Li 2024 (10-11) as read: fading means of the increments, so that K is the curvature at
+        // order 1, and on any circle.
+        let curvature = self.headings.push(turn_rad) / self.arcs.push(length_m);
+        (curvature, self.deflect(curvature))
+    }
+
+    /// Where the wheel that steers stands in the body frame.
+    fn wheel_m(&self, deflection_m: f64) -> (f64, f64) {
+        let p = &self.parameters;
+        let x = self.wheelbase_m + p.forward_gain * deflection_m.abs();
+        (x, p.inward_gain * deflection_m)
+    }
+
+    /// (13-14): the curvature that the displaced wheel reaches at the steering limit, as the
+    /// steering of a rigid bicycle.
+    fn limit_rad(&self, (x, y): (f64, f64)) -> f64 {
+        let reached = self.max_tangent / (x + y.abs() * self.max_tangent);
+        (self.wheelbase_m * reached).atan()
     }
 
     /// The deflection after a step: the fractional Kelvin-Voigt body
@@ -172,10 +193,8 @@ impl SuspendedSteering {
     fn deflect(&mut self, curvature: f64) -> f64 {
         let p = &self.parameters;
         let force = p.mass_kg * p.speed_mps * p.speed_mps * curvature;
-        let time_step_s = self.step_m / p.speed_mps.max(f64::MIN_POSITIVE);
-        let damping = p.relaxation * time_step_s.powf(-p.damping_order);
         let remembered = p.relaxation * self.deflections.memory();
-        let deflection = (p.compliance_m_per_n * force - remembered) / (1.0 + damping);
+        let deflection = (p.compliance_m_per_n * force - remembered) / (1.0 + self.damping);
         self.deflections.push(deflection);
         deflection
     }

@@ -43,6 +43,20 @@ pub(super) struct ChordWalker<'a> {
     seed: Seed,
     memories: [Memory; 2],
     candidates: Candidates,
+    /// The steps of the present ant, a last one to the goal aside.
+    taken: Vec<Candidate>,
+    goes_to_goal: bool,
+}
+
+/// Adds a step to what the steps before came to, and to what is remembered of them.
+fn take(step: &Candidate, meter: &mut SteeringMeter, memories: &mut [Memory; 2]) {
+    let Turn {
+        needed_rad,
+        turn_rad,
+    } = step.turn;
+    meter.take_needing(needed_rad, turn_rad, step.length_m);
+    memories[0].push(step.corner);
+    memories[1].push(step.quality);
 }
 
 impl<'a> ChordWalker<'a> {
@@ -52,40 +66,62 @@ impl<'a> ChordWalker<'a> {
             seed,
             memories: ground.config.transition.memories(),
             candidates: Candidates::default(),
+            taken: Vec::new(),
+            goes_to_goal: false,
         }
     }
 
     /// Walks until the goal or until no step is left; whether it is the goal, and how the steps
     /// add up.
-    fn walk(
-        &mut self,
-        shared: &Shared,
-        stream: &mut RandomStream,
-        steps: &mut Vec<u8>,
-    ) -> (bool, SteeringMeter) {
+    fn walk(&mut self, shared: &Shared, stream: &mut RandomStream) -> (bool, SteeringMeter) {
         let ground = self.ground;
-        let mut meter = ground.meter.clone();
-        self.memories.iter_mut().for_each(Memory::forget);
-        let (mut at, mut last) = (ground.start, None);
-        for _ in 0..ground.max_steps {
+        let (mut meter, mut n_retreats) = (self.go_back(usize::MAX), 0);
+        let mut n_left = ground.config.dead_end.max_retreats() as usize;
+        while self.taken.len() < ground.max_steps {
+            let (at, last) = self.standing();
             if at == ground.goal {
                 return (true, meter);
             }
             if let Some((turn_rad, length_m)) = self.goal_step(at, last, &meter) {
                 meter.take(turn_rad, length_m);
-                steps.push(TO_GOAL);
+                self.goes_to_goal = true;
                 return (true, meter);
             }
-            let Some(chosen) = self.choose(shared, stream, (at, last), &meter) else {
+            if let Some(chosen) = self.choose(shared, stream, (at, last), &meter) {
+                take(&chosen, &mut meter, &mut self.memories);
+                self.taken.push(chosen);
+            } else if n_left > 0 && last.is_some() {
+                // The farther, the oftener it failed.
+                n_retreats += 1;
+                let n_back = (1 + stream.below(2 * n_retreats)).min(n_left);
+                n_left -= n_back;
+                meter = self.go_back(n_back);
+            } else {
                 return (false, meter);
-            };
-            meter.take(chosen.turn.turn_rad, chosen.length_m);
-            self.memories[0].push(chosen.corner);
-            self.memories[1].push(chosen.quality);
-            steps.push(chosen.step);
-            (at, last) = (chosen.to, Some(usize::from(chosen.step)));
+            }
         }
         (false, meter)
+    }
+
+    /// Where the ant stands, and the step that led there.
+    fn standing(&self) -> (Cell, Option<usize>) {
+        let last = self.taken.last();
+        last.map_or((self.ground.start, None), |last| {
+            (last.to, Some(usize::from(last.step)))
+        })
+    }
+
+    /// Forgets the last steps, and goes through those before again: what they add up to.
+    fn go_back(&mut self, n_steps: usize) -> SteeringMeter {
+        let n_kept = self.taken.len().saturating_sub(n_steps);
+        self.taken.truncate(n_kept);
+        self.goes_to_goal = false;
+        self.memories.iter_mut().for_each(Memory::forget);
+        let mut meter = self.ground.meter.clone();
+        for taken in &self.taken {
+            take(taken, &mut meter, &mut self.memories);
+        }
+        meter
     }
 
     /// The turn and the length of a last step to the goal, where it is near, within the steering
@@ -200,7 +236,9 @@ impl<'a> ChordWalker<'a> {
         let problem = self.ground.problem;
         match last {
             Some(last) => Some(self.ground.ring.directions_rad[last]),
-            None => problem.start_heading_is_exact.then_some(problem.start.heading),
+            None => problem
+                .start_heading_is_exact
+                .then_some(problem.start.heading),
         }
     }
 }
@@ -219,7 +257,12 @@ impl Walk for ChordWalker<'_> {
         let ground = self.ground;
         for ant in ants {
             let mut stream = self.seed.stream([u64::from(iteration), u64::from(ant)]);
-            let (arrived, meter) = self.walk(shared, &mut stream, &mut generation.steps);
+            let (arrived, meter) = self.walk(shared, &mut stream);
+            let steps = self.taken.iter().map(|taken| taken.step);
+            generation.steps.extend(steps);
+            generation
+                .steps
+                .extend(self.goes_to_goal.then_some(TO_GOAL));
             let cost = meter.total(&ground.config.cost, ground.reference.length_m);
             generation.end_ant(arrived, cost);
         }

@@ -101,19 +101,25 @@ impl Candidates {
     fn rate(&mut self, ground: &Ground, standing: &Standing, shared: &Shared) {
         let config = ground.config;
         let limit_rad = standing.meter.limit_rad();
-        let ways = shared.ways(standing.number).unwrap_or([
-            self.largest_to_go,
-            f64::from(ground.to_go[standing.number]),
-        ]);
+        let ways = shared
+            .ways(standing.number)
+            .unwrap_or([self.largest_to_go, f64::from(ground.to_go[standing.number])]);
         let mut best = [f64::MIN_POSITIVE; 2];
         for candidate in &mut self.list {
             let turn_rad = candidate.turn.turn_rad.abs();
-            let straightness = standing.meter.straightness().with(turn_rad, candidate.length_m);
+            let straightness = standing
+                .meter
+                .straightness()
+                .with(turn_rad, candidate.length_m);
             let share = candidate.turn.needed_rad / limit_rad;
-            candidate.corner = 1.0 / (1.0 + config.corner.omega(share, straightness, shared.factor));
+            candidate.corner =
+                1.0 / (1.0 + config.corner.omega(share, straightness, shared.factor));
             let distance = ground.distance(candidate.to);
             candidate.quality = config.distance.quality(distance, ways, shared.factor);
-            best = [best[0].max(candidate.corner), best[1].max(candidate.quality)];
+            best = [
+                best[0].max(candidate.corner),
+                best[1].max(candidate.quality),
+            ];
         }
         for candidate in &mut self.list {
             candidate.corner /= best[0];
@@ -151,5 +157,9 @@ impl Candidates {
 /// Powers of which nearly all are the first.
 #[inline]
 fn power(base: f64, exponent: f64) -> f64 {
-    if exponent == 1.0 { base } else { base.powf(exponent) }
+    if exponent == 1.0 {
+        base
+    } else {
+        base.powf(exponent)
+    }
 }

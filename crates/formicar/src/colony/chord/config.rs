@@ -9,6 +9,7 @@ use super::safety::Safety;
 use super::seeding::PathSeed;
 use super::transition::ChordTransition;
 use crate::colony::config::{ColonyError, Stopping};
+use crate::colony::dead_end::DeadEnd;
 use crate::colony::evaporation::Evaporation;
 use crate::colony::heuristic::Guidance;
 use crate::numeric::{OutOfRange, check_range};
@@ -52,6 +53,9 @@ pub struct ChordConfig {
     pub limit: SteeringLimit,
     /// How both terms enter the weight of a step.
     pub transition: ChordTransition,
+    /// What an ant does where no step is left. One that retreats goes back some steps, more of them
+    /// each time, and draws anew.
+    pub dead_end: DeadEnd,
     /// Pheromone before the first generation.
     pub initial: PathSeed,
     /// How pheromone evaporates.
@@ -78,13 +82,33 @@ impl ChordConfig {
     pub fn check(&self) -> Result<(), ColonyError> {
         for (key, value, range) in [
             ("chords.n_ants", f64::from(self.n_ants), 1.0..=1e6),
-            ("chords.n_iterations", f64::from(self.n_iterations), 1.0..=1e6),
+            (
+                "chords.n_iterations",
+                f64::from(self.n_iterations),
+                1.0..=1e6,
+            ),
             ("chords.reach", f64::from(self.reach), 1.0..=16.0),
-            ("number of chords.growth_radii", self.growth_radii.len() as f64, 1.0..=8.0),
-            ("chords.pheromone_exponent", self.pheromone_exponent, 0.0..=10.0),
+            (
+                "number of chords.growth_radii",
+                self.growth_radii.len() as f64,
+                1.0..=8.0,
+            ),
+            (
+                "chords.pheromone_exponent",
+                self.pheromone_exponent,
+                0.0..=10.0,
+            ),
             ("chords.corner_exponent", self.corner_exponent, 0.0..=10.0),
-            ("chords.distance_exponent", self.distance_exponent, 0.0..=10.0),
-            ("chords.stopping.target_cost", self.stopping.target_cost, 0.0..=f64::MAX),
+            (
+                "chords.distance_exponent",
+                self.distance_exponent,
+                0.0..=10.0,
+            ),
+            (
+                "chords.stopping.target_cost",
+                self.stopping.target_cost,
+                0.0..=f64::MAX,
+            ),
         ] {
             check_range(key, value, range)?;
         }

@@ -31,7 +31,7 @@ impl Default for NearShortest {
     fn default() -> Self {
         Self {
             ratio: 1.1,
-            step_detour_cells: 2.5,
+            step_detour_cells: 4.0,
         }
     }
 }
@@ -50,9 +50,7 @@ impl Corridor {
     pub(super) fn limits(&self, shortest_cells: f64) -> [f64; 2] {
         match self {
             // Some cells more, so that short ways have room too.
-            Self::NearShortest(rule) => {
-                [rule.ratio * shortest_cells + 4.0, rule.step_detour_cells]
-            }
+            Self::NearShortest(rule) => [rule.ratio * shortest_cells + 4.0, rule.step_detour_cells],
             Self::None => [f64::INFINITY; 2],
         }
     }
@@ -94,7 +92,8 @@ impl Numbered {
                 let columns = 64 * w..n_cols.min(64 * (w + 1));
                 let both = from[columns.clone()].iter().zip(&to[columns]);
                 *word = both.enumerate().fold(0, |word, (bit, (&a, &b))| {
-                    let is_near = a < u32::MAX && b < u32::MAX && f64::from(a) + f64::from(b) <= limit;
+                    let is_near =
+                        a < u32::MAX && b < u32::MAX && f64::from(a) + f64::from(b) <= limit;
                     word | u64::from(is_near) << bit
                 });
             }

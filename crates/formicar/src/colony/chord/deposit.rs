@@ -51,8 +51,16 @@ impl Default for SpreadDeposit {
 
 impl SpreadDeposit {
     pub(super) fn check(&self) -> Result<(), OutOfRange> {
-        check_range("chords.deposit.spread_weight", self.spread_weight, 0.0..=1e6)?;
-        check_range("chords.deposit.length_weight", self.length_weight, 0.0..=1e6)?;
+        check_range(
+            "chords.deposit.spread_weight",
+            self.spread_weight,
+            0.0..=1e6,
+        )?;
+        check_range(
+            "chords.deposit.length_weight",
+            self.length_weight,
+            0.0..=1e6,
+        )?;
         check_range("chords.deposit.pheromone", self.pheromone, 1e-6..=1e6)
     }
 

@@ -56,7 +56,9 @@ pub fn run_chords(
         best: best.next(),
         earlier: best.collect(),
         stop,
-        pheromone: colony.pheromone().by_cell(problem.moves.n_cols(), problem.moves.n_rows()),
+        pheromone: colony
+            .pheromone()
+            .by_cell(problem.moves.n_cols(), problem.moves.n_rows()),
         history: colony.history,
     })
 }
@@ -91,7 +93,12 @@ impl<'a> Colony<'a> {
     fn new(ground: &'a Ground<'a>) -> Self {
         let (initial, cells) = (&ground.config.initial, &ground.cells);
         let mut tau = vec![initial.tau as f32; cells.len()];
-        for number in ground.shortest.cells.iter().filter_map(|&c| cells.number(c)) {
+        for number in ground
+            .shortest
+            .cells
+            .iter()
+            .filter_map(|&c| cells.number(c))
+        {
             tau[number] = (initial.tau * initial.factor) as f32;
         }
         let n_cols = ground.problem.moves.n_cols() as u32;
@@ -190,7 +197,10 @@ impl<'a> Colony<'a> {
     fn record(&self, iteration: u32, generation: &ChordGeneration, rho: f64) -> IterationRecord {
         let n_arrived = generation.arrived().count();
         let mean = |of: fn(&PolylineCost) -> f64| {
-            let sum: f64 = generation.arrived().map(|ant| of(&generation.costs[ant])).sum();
+            let sum: f64 = generation
+                .arrived()
+                .map(|ant| of(&generation.costs[ant]))
+                .sum();
             (n_arrived > 0).then(|| sum / n_arrived as f64)
         };
         let cells = |length_m: f64| length_m / self.ground.resolution_m;
@@ -218,11 +228,15 @@ impl<'a> Colony<'a> {
 
     fn is_done(&self) -> Option<Stop> {
         let stopping = &self.ground.config.stopping;
-        let cost = self.best.last()?.cost.cost;
-        if cost <= stopping.target_cost {
+        let patience = stopping.stall_iterations;
+        let Some(best) = self.best.last() else {
+            // Without a way there is more to hope for, but not for ever.
+            let has_waited = self.n_stalled >= 2 * patience;
+            return (patience > 0 && has_waited).then_some(Stop::Stall);
+        };
+        if best.cost.cost <= stopping.target_cost {
             return Some(Stop::TargetCost);
         }
-        let patience = stopping.stall_iterations;
         (patience > 0 && self.n_stalled >= patience).then_some(Stop::Stall)
     }
 
@@ -258,7 +272,7 @@ fn learn_lengths(ground: &Ground, steps: &[u8], known: &mut [[f32; 2]]) {
             f64::from(pair[1].col) - f64::from(pair[0].col),
             f64::from(pair[1].row) - f64::from(pair[0].row),
         );
-        to_go += dx.hypot(dy);
+        to_go += (dx * dx + dy * dy).sqrt();
         if let Some(number) = ground.cells.number(pair[0]) {
             let [longest, shortest] = known[number];
             let to_go = to_go as f32;

@@ -74,7 +74,9 @@ impl<'a> Ground<'a> {
         let n_cols = problem.moves.n_cols();
         let cells = Numbered::between([&from_start, &to_goal], n_cols, longest);
         let to_go = cells.iter().map(|cell| to_goal.distance_cells(cell));
-        let to_go = to_go.map(|cells| cells.unwrap_or(f64::INFINITY) as f32).collect();
+        let to_go = to_go
+            .map(|cells| cells.unwrap_or(f64::INFINITY) as f32)
+            .collect();
         let resolution_m = problem.obstacles.frame().resolution_m();
         let ring = Ring::new(config.reach);
         let steering = problem.vehicle.steering_geometry();
@@ -90,7 +92,12 @@ impl<'a> Ground<'a> {
             wheelbase_m: steering[0],
             turns: Vec::new(),
             followers: Vec::new(),
-            guard: Guard::new(&config.safety, problem.obstacles, problem.vehicle, &ring.moves)?,
+            guard: Guard::new(
+                &config.safety,
+                problem.obstacles,
+                problem.vehicle,
+                &ring.moves,
+            )?,
             cells,
             to_go,
             step_detour,
@@ -169,7 +176,7 @@ impl<'a> Ground<'a> {
             f64::from(self.goal.col) - f64::from(cell.col),
             f64::from(self.goal.row) - f64::from(cell.row),
         );
-        dx.hypot(dy)
+        (dx * dx + dy * dy).sqrt()
     }
 
     /// The cells of a way.

@@ -26,7 +26,9 @@ impl Ring {
             .collect();
         let of = |f: fn(f64, f64) -> f64| {
             let moves = moves.iter();
-            moves.map(|&(dx, dy)| f(f64::from(dx), f64::from(dy))).collect()
+            moves
+                .map(|&(dx, dy)| f(f64::from(dx), f64::from(dy)))
+                .collect()
         };
         Self {
             directions_rad: of(|dx, dy| dy.atan2(dx)),
@@ -47,7 +49,10 @@ impl Ring {
 
 /// The cell that a step leads to; off the map it may be any.
 pub(super) fn moved(cell: Cell, (dx, dy): (i32, i32)) -> Cell {
-    Cell::new(cell.col.wrapping_add_signed(dx), cell.row.wrapping_add_signed(dy))
+    Cell::new(
+        cell.col.wrapping_add_signed(dx),
+        cell.row.wrapping_add_signed(dy),
+    )
 }
 
 #[cfg(test)]

@@ -49,10 +49,7 @@ impl Safety {
 
 /// The rule made ready for a map, a vehicle and the steps of a ring.
 pub(super) enum Guard {
-    Footprint {
-        masks: SweptMasks,
-        body: Box<Body>,
-    },
+    Footprint { masks: SweptMasks, body: Box<Body> },
     Disc(Option<BitGrid>),
     None,
 }
@@ -107,9 +104,9 @@ impl Guard {
                 };
                 obstacles.is_free(body, &drive)
             }
-            Self::Disc(closed) => closed
-                .as_ref()
-                .is_some_and(|closed| !closed.get((to.x * scale) as usize, (to.y * scale) as usize)),
+            Self::Disc(closed) => closed.as_ref().is_some_and(|closed| {
+                !closed.get((to.x * scale) as usize, (to.y * scale) as usize)
+            }),
             Self::None => true,
         }
     }

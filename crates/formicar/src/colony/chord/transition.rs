@@ -132,7 +132,9 @@ mod tests {
         let rule = ChordTransition::Fractional(FractionalTransition::default());
         let [mut memory, _] = rule.memories();
         let samples = [1.0, 0.9, 1.0, 0.7, 0.8, 1.0, 0.95, 1.0, 0.9, 1.0];
-        let expected = FractionalDerivative::new(0.5, 1.0).with_window(8).of(&samples);
+        let expected = FractionalDerivative::new(0.5, 1.0)
+            .with_window(8)
+            .of(&samples);
         for (value, expected) in samples.into_iter().zip(expected) {
             let derivative = memory.derivative(value, memory.past());
             assert!((derivative - expected.max(0.05 * value)).abs() < 1e-12);
@@ -151,7 +153,8 @@ mod tests {
 
     #[test]
     fn a_derivative_sets_candidates_farther_apart() {
-        let [mut memory, _] = ChordTransition::Fractional(FractionalTransition::default()).memories();
+        let [mut memory, _] =
+            ChordTransition::Fractional(FractionalTransition::default()).memories();
         for _ in 0..8 {
             memory.push(1.0);
         }

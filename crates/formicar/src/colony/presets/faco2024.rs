@@ -6,6 +6,7 @@ use crate::colony::chord::{
     SpreadDeposit, SteeringLimit,
 };
 use crate::colony::config::Stopping;
+use crate::colony::dead_end::{DeadEnd, Retreat};
 use crate::colony::evaporation::{Evaporation, Generational};
 use crate::colony::heuristic::{Advantage, Guidance};
 use crate::objective::SteeringCost;
@@ -13,8 +14,9 @@ use crate::objective::SteeringCost;
 /// FACO, Li et al. 2024: ants that step by chords with the steering that a suspended car has,
 /// seeded by a shortest path, and weigh steps by fractional derivatives along their way.
 ///
-/// Guidance by advantage and the corridor are ours: without them no ant finds its way over some
-/// hundred cells. The paper's plain form is `guidance` and `corridor` of `none`.
+/// Guidance by advantage, the corridor and retreat from dead ends are ours: without them hardly an
+/// ant finds its way over some hundred cells. The paper's plain form is `guidance` and `corridor`
+/// of `none`, and `dead_end` of `die`.
 pub fn faco2024() -> ChordConfig {
     ChordConfig {
         n_ants: 50,
@@ -27,13 +29,14 @@ pub fn faco2024() -> ChordConfig {
         safety: Safety::Footprint(FootprintSafety { margin_cells: 0.5 }),
         corridor: Corridor::NearShortest(NearShortest {
             ratio: 1.1,
-            step_detour_cells: 2.5,
+            step_detour_cells: 4.0,
         }),
         guidance: Guidance::Advantage(Advantage { beta: 1.0 }),
         corner: CornerTerm::Product(CornerRule::default()),
         distance: DistanceTerm::KnownLengths(KnownLengths { eta: 1.1 }),
         limit: SteeringLimit::Dynamic(DynamicLimit::default()),
         transition: ChordTransition::Fractional(FractionalTransition::default()),
+        dead_end: DeadEnd::Retreat(Retreat { max_steps: 10 }),
         initial: PathSeed::default(),
         evaporation: Evaporation::Generational(Generational::default()),
         deposit: SpreadDeposit::default(),

@@ -43,7 +43,10 @@ pub(in super::super) struct WideWay {
 /// headings asked for; none where no such way is free.
 pub(in super::super) fn widest(task: &Task, polyline: &[Point2]) -> Option<WideWay> {
     let (config, radius_m) = (task.config, task.radius_m);
-    let map = (task.obstacles.lethal(), task.obstacles.frame().resolution_m());
+    let map = (
+        task.obstacles.lethal(),
+        task.obstacles.frame().resolution_m(),
+    );
     let measures = [config.leg_radii, config.corner_radii].map(|radii| radii * radius_m);
     let mut search = Search {
         sights: Sights::new(polyline, map, measures)?,
@@ -173,7 +176,11 @@ impl Search<'_> {
         for (&a, &b) in from.iter().flat_map(|a| to.iter().map(move |b| (a, b))) {
             for radii in CURVE_RADII {
                 let words = self.task.words_at(a, b, radii * self.task.radius_m);
-                curves.extend(words.into_iter().map(|curve| (self.curve_cost(&curve), a, curve)));
+                curves.extend(
+                    words
+                        .into_iter()
+                        .map(|curve| (self.curve_cost(&curve), a, curve)),
+                );
             }
         }
         curves.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -246,13 +253,16 @@ impl Search<'_> {
             return;
         };
         let remaining = self.fillet_cost(&fillet) + next.distance_m + self.sights.rest_m(next.to);
-        self.open.push([cost, remaining], Step::Turn(leg, next, radius));
+        self.open
+            .push([cost, remaining], Step::Turn(leg, next, radius));
     }
 
     /// The arc at the end of a leg; none where the legs have no room for one or the turn is too
     /// sharp.
     fn fillet(&self, leg: usize, next: Sight, radius: i32) -> Option<Fillet> {
-        let Leg { sight, begins_m, .. } = self.legs[leg];
+        let Leg {
+            sight, begins_m, ..
+        } = self.legs[leg];
         let turn_rad = angle_difference(next.heading_rad, sight.heading_rad);
         if turn_rad.abs() < STRAIGHT_RAD {
             return (radius == 0).then_some(Fillet::default());
@@ -319,7 +329,13 @@ impl Search<'_> {
             turning,
         });
         let cost = cost + self.fillet_cost(&fillet);
-        self.close(from, next, Reached::FromLeg(leg, rounded), fillet.tangent_m, cost);
+        self.close(
+            from,
+            next,
+            Reached::FromLeg(leg, rounded),
+            fillet.tangent_m,
+            cost,
+        );
     }
 
     /// The pose on a leg, some metres from its beginning.
@@ -358,7 +374,8 @@ impl Search<'_> {
         for (curve_cost, start, curve) in self.cheapest_curves(&[from], &self.task.ends.goals) {
             let number = self.curves.len();
             self.curves.push((start, curve));
-            self.open.push([cost + curve_cost, 0.0], Step::TailCurve(leg, number));
+            self.open
+                .push([cost + curve_cost, 0.0], Step::TailCurve(leg, number));
         }
     }
 
@@ -385,10 +402,12 @@ impl Search<'_> {
         };
         let mut corners = Vec::new();
         for (i, &leg) in legs.iter().enumerate() {
-            let corner = legs.get(i + 1).and_then(|&next| match self.legs[next].reached {
-                Reached::FromLeg(_, corner) => corner,
-                _ => None,
-            });
+            let corner = legs
+                .get(i + 1)
+                .and_then(|&next| match self.legs[next].reached {
+                    Reached::FromLeg(_, corner) => corner,
+                    _ => None,
+                });
             let before_m = corner.map_or(0.0, |corner| corner.turning.before_m);
             let length_m = self.legs[leg].sight.distance_m;
             arcs.push(Arc::new(0.0, length_m - before_m - self.legs[leg].begins_m));
@@ -397,7 +416,10 @@ impl Search<'_> {
         }
         arcs.extend(tail.iter().flat_map(|&tail| self.curves[tail].1.arcs()));
         let mut points = vec![self.sights.points[0]];
-        points.extend(legs.iter().map(|&leg| self.sights.points[self.legs[leg].from]));
+        points.extend(
+            legs.iter()
+                .map(|&leg| self.sights.points[self.legs[leg].from]),
+        );
         points.push(self.sights.points[self.legs[last].sight.to]);
         points.push(self.sights.points[self.sights.last()]);
         points.dedup();

@@ -104,7 +104,11 @@ fn ahead(from: usize, last: usize) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let here = next;
         let gap = 1 + (here - from) / N_NEAR;
-        next = if here < last { (here + gap).min(last) } else { last + 1 };
+        next = if here < last {
+            (here + gap).min(last)
+        } else {
+            last + 1
+        };
         (here <= last).then_some(here)
     })
 }
