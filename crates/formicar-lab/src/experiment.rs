@@ -7,27 +7,45 @@ use formicar::map::builtin::BuiltinMap;
 use formicar::planner::{PlannerConfig, PlannerName};
 use formicar::scenario::{GoalHeading, Request, StartHeading};
 use formicar::vehicle::Vehicle;
+use std::path::PathBuf;
 
 /// How much is run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scale {
     /// Runs of each variant on each map, with the seeds 0 to `n_seeds` - 1.
     pub n_seeds: u64,
+    /// Runs of each method where methods are compared, with the seeds from 0 on.
+    pub n_runs: u64,
     /// Repetitions of each timing.
     pub n_timings: usize,
+    /// Whether only the smaller of several sizes and sets are run.
+    pub is_small: bool,
 }
 
 impl Scale {
     /// As published.
     pub const FULL: Self = Self {
         n_seeds: 31,
+        n_runs: 10,
         n_timings: 11,
+        is_small: false,
     };
     /// Enough to see that it works.
     pub const QUICK: Self = Self {
         n_seeds: 3,
+        n_runs: 3,
         n_timings: 3,
+        is_small: true,
     };
+}
+
+/// How much is run, and on what.
+#[derive(Clone, Debug)]
+pub struct Setup {
+    /// How much.
+    pub scale: Scale,
+    /// Folder of data sets; what is not there is passed over.
+    pub data: PathBuf,
 }
 
 /// A configuration with a name.
@@ -66,8 +84,8 @@ impl Variant {
 /// A map, a vehicle and a request with free headings, as the papers ask.
 #[derive(Clone, Debug)]
 pub struct Ground {
-    /// Name of the built-in map.
-    pub map: &'static str,
+    /// Name of the map, with that of the request where there are several.
+    pub map: String,
     /// The map itself.
     pub grid: OccupancyGrid,
     /// Who drives.
@@ -78,11 +96,11 @@ pub struct Ground {
 
 impl Ground {
     /// A built-in map with its first request and its own vehicle.
-    pub(crate) fn builtin(map: &'static str) -> Result<Self> {
+    pub(crate) fn builtin(map: &str) -> Result<Self> {
         let builtin = BuiltinMap::by_name(map)?;
         let ends = &builtin.requests[0];
         Ok(Self {
-            map,
+            map: map.to_owned(),
             grid: builtin.grid(),
             vehicle: Vehicle::preset(builtin.vehicle)
                 .with_context(|| format!("vehicle {} of {map}", builtin.vehicle))?,
@@ -92,29 +110,6 @@ impl Ground {
                 ..Request::new(ends.start, ends.goal)
             },
         })
-    }
-}
-
-/// All rows of an experiment, and what they come to.
-#[derive(Clone, Debug)]
-pub struct Reproduction {
-    /// Every run.
-    pub trials: Vec<Trial>,
-    /// Tables, in Markdown.
-    pub summary: String,
-}
-
-impl Reproduction {
-    /// The rows as CSV.
-    ///
-    /// # Errors
-    /// None that is expected: rows are plain numbers and words.
-    pub fn csv(&self) -> Result<String> {
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        for trial in &self.trials {
-            writer.serialize(trial)?;
-        }
-        Ok(String::from_utf8(writer.into_inner()?)?)
     }
 }
 

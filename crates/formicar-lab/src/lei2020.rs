@@ -1,8 +1,9 @@
 //! Lei & Zheng 2020: what each part of the method brings, on three maps.
 
-use crate::experiment::{Ground, Reproduction, Scale, Variant, run_all};
-use crate::markdown::{Table, number, spread};
-use crate::statistics::{quantile, quartiles, wilson_interval};
+use crate::experiment::{Ground, Setup, Variant, run_all};
+use crate::report::{Field, Report, Row, Section, Table};
+use crate::reproduction::Reproduction;
+use crate::statistics::{quantile, quartiles};
 use crate::trial::Trial;
 use anyhow::Result;
 use formicar::colony::evaporation::{Constant, Evaporation};
@@ -11,7 +12,6 @@ use formicar::colony::transition::Transition;
 use formicar::layers::UShapes;
 use formicar::planner::{PlannerConfig, PlannerName};
 use formicar::smoothing::{Corners, RedundantNodes};
-use std::fmt::Write;
 
 /// The maps with the lengths that the paper gives in its Table 1 for maps of the same sizes of its
 /// own: conventional, elite, improved.
@@ -32,12 +32,11 @@ const COLONIES: [PlannerName; 3] = [
 ///
 /// # Errors
 /// None that is expected: maps and configurations are built in.
-pub fn lei2020(scale: Scale, tell: &mut dyn FnMut(&str)) -> Result<Reproduction> {
+pub fn lei2020(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproduction> {
     let grounds = MAPS.map(|(map, _)| Ground::builtin(map));
     let grounds = grounds.into_iter().collect::<Result<Vec<_>>>()?;
-    let trials = run_all(&grounds, variants, scale, tell)?;
-    let summary = summary(&trials);
-    Ok(Reproduction { trials, summary })
+    let trials = run_all(&grounds, variants, setup.scale, tell)?;
+    Reproduction::of_trials(report(&trials), &trials, (&grounds, variants), setup.scale)
 }
 
 /// All variants, of the size that the paper uses on a map.
@@ -102,22 +101,19 @@ fn stretch(config: &mut PlannerConfig, k_last: f64) {
     }
 }
 
-fn summary(trials: &[Trial]) -> String {
-    let mut text = "# Lei & Zheng 2020: what each part brings\n\n\
-        Lengths of the ants' way in cells; medians with quartiles. `optimum` is the shortest way \
-        under the same layers and moves. `certified` counts smoothed paths, free headings, with a \
-        certificate of the whole swept body. `to best` is the iteration that found the best way. \
-        Times are those of whole queries on one thread.\n"
-        .to_owned();
-    for (map, _) in MAPS {
-        let _ = write!(text, "\n## {map}\n\n{}", table(map, trials));
+fn report(trials: &[Trial]) -> Report {
+    let maps = MAPS.map(|(map, _)| Section::of_table(map, table(map, trials)));
+    let beside = Section::of_table("Table 1 of the paper beside ours", beside(trials));
+    Report {
+        name: "lei2020".to_owned(),
+        title: "Lei & Zheng 2020: what each part brings".to_owned(),
+        intro: "Lengths of the ants' way in cells; medians with quartiles. `optimum` is the \
+                shortest way under the same layers and moves. `certified` counts smoothed paths, \
+                free headings, with a certificate of the whole swept body. `to best` is the \
+                iteration that found the best way. Times are those of whole queries on one thread."
+            .to_owned(),
+        sections: maps.into_iter().chain([beside]).collect(),
     }
-    let _ = write!(
-        text,
-        "\n## Table 1 of the paper beside ours\n\n{}",
-        beside(trials)
-    );
-    text
 }
 
 fn of<'a>(trials: &'a [Trial], map: &str, variant: &str) -> Vec<&'a Trial> {
@@ -130,19 +126,22 @@ fn values(trials: &[&Trial], of: impl Fn(&Trial) -> Option<f64>) -> Vec<f64> {
     trials.iter().filter_map(|trial| of(trial)).collect()
 }
 
-fn table(map: &str, trials: &[Trial]) -> String {
-    let mut table = Table::new(&[
-        "variant",
-        "arrived",
-        "certified",
-        "length",
-        "/ optimum",
-        "turns",
-        "nodes before",
-        "after",
-        "to best",
-        "ms",
-    ]);
+fn table(map: &str, trials: &[Trial]) -> Table {
+    let mut table = Table::new(
+        map,
+        &[
+            "variant",
+            "arrived",
+            "certified",
+            "length",
+            "/ optimum",
+            "turns",
+            "nodes before",
+            "after",
+            "to best",
+            "ms",
+        ],
+    );
     let mut names: Vec<&str> = Vec::new();
     for trial in trials.iter().filter(|trial| trial.map == map) {
         if !names.contains(&trial.variant.as_str()) {
@@ -150,54 +149,55 @@ fn table(map: &str, trials: &[Trial]) -> String {
         }
     }
     for name in names {
-        table.row(&row(name, &of(trials, map, name)));
+        table.row(row(name, &of(trials, map, name)));
     }
-    table.finish()
+    table
 }
 
-fn row(name: &str, trials: &[&Trial]) -> Vec<String> {
+fn row(name: &str, trials: &[&Trial]) -> Row {
     let median = |of: fn(&Trial) -> Option<f64>| quantile(&values(trials, of), 0.5);
     let count = |is: fn(&Trial) -> bool| trials.iter().filter(|trial| is(trial)).count();
-    let rate = |n_success: usize| {
-        let (low, high) = wilson_interval(n_success, trials.len());
-        format!(
-            "{n_success}/{} [{:.0}, {:.0}] %",
-            trials.len(),
-            100.0 * low,
-            100.0 * high
-        )
-    };
+    let number = |of: fn(&Trial) -> Option<f64>, n| Field::Number(median(of), n);
     vec![
-        name.to_owned(),
-        rate(count(|trial| trial.arrived)),
-        rate(count(|trial| trial.certified)),
-        spread(quartiles(&values(trials, |trial| trial.length_cells)), 1),
-        number(median(|t| Some(t.length_cells? / t.optimum_cells?)), 3),
-        number(median(|trial| Some(trial.n_turns? as f64)), 0),
-        number(median(|trial| Some(trial.n_nodes_before? as f64)), 0),
-        number(median(|trial| Some(trial.n_nodes_after? as f64)), 0),
-        number(median(|trial| Some(f64::from(trial.n_to_best?))), 0),
-        number(median(|trial| Some(trial.query_ms)), 1),
+        Field::words(name),
+        Field::Rate(count(|trial| trial.arrived), trials.len()),
+        Field::Rate(count(|trial| trial.certified), trials.len()),
+        Field::Spread(quartiles(&values(trials, |trial| trial.length_cells)), 1),
+        number(|t| Some(t.length_cells? / t.optimum_cells?), 3),
+        number(|trial| Some(trial.n_turns? as f64), 0),
+        number(|trial| Some(trial.n_nodes_before? as f64), 0),
+        number(|trial| Some(trial.n_nodes_after? as f64), 0),
+        number(|trial| Some(f64::from(trial.n_to_best?)), 0),
+        number(|trial| Some(trial.query_ms), 1),
     ]
 }
 
 /// Lengths of the paper and ours, on maps of the same sizes, as ratios to the improved colony's.
-fn beside(trials: &[Trial]) -> String {
-    let mut table = Table::new(&[
-        "map",
-        "conventional / improved, paper",
-        "ours",
-        "elite / improved, paper",
-        "ours",
-    ]);
+fn beside(trials: &[Trial]) -> Table {
+    let mut table = Table::new(
+        "beside",
+        &[
+            "map",
+            "conventional / improved, paper",
+            "ours",
+            "elite / improved, paper",
+            "ours",
+        ],
+    );
     for (map, paper) in MAPS {
         let ours = COLONIES.map(|planner| {
             let trials = of(trials, map, planner.name());
             quantile(&values(&trials, |trial| trial.length_cells), 0.5)
         });
-        let ratio = |i: usize| number(ours[i].zip(ours[2]).map(|(a, b)| a / b), 2);
-        let stated = |i: usize| number(Some(paper[i] / paper[2]), 2);
-        table.row(&[map.to_owned(), stated(0), ratio(0), stated(1), ratio(1)]);
+        let ratio = |i: usize| Field::Number(ours[i].zip(ours[2]).map(|(a, b)| a / b), 2);
+        let stated = |i: usize| Field::Number(Some(paper[i] / paper[2]), 2);
+        table.row(vec![
+            Field::words(map),
+            stated(0),
+            ratio(0),
+            stated(1),
+            ratio(1),
+        ]);
     }
-    table.finish()
+    table
 }

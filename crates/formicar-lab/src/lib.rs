@@ -1,17 +1,22 @@
 //! Experiments: what papers claim, repeated on maps of our own and measured.
 //!
 //! An experiment is a list of [`Variant`]s, configurations with a name, that run on the same
-//! [`Ground`]s with the same seeds. Every run gives a [`Trial`], a row of `results.csv`; a
-//! [`Reproduction`] holds all rows and a summary in Markdown.
+//! [`Ground`]s with the same seeds. Every run gives a row of `results.csv`; a [`Reproduction`]
+//! holds all rows and a [`report::Report`] of tables and figures, which is written as a page, as
+//! Markdown and as LaTeX.
 
 mod experiment;
 mod lei2020;
-mod markdown;
+mod li2024;
+pub mod report;
+mod reproduction;
 pub mod statistics;
 mod trial;
 mod wang2019;
 
-pub use experiment::{Ground, Reproduction, Scale, Variant};
+pub use experiment::{Ground, Scale, Setup, Variant};
 pub use lei2020::lei2020;
+pub use li2024::li2024;
+pub use reproduction::Reproduction;
 pub use trial::Trial;
 pub use wang2019::wang2019;

@@ -73,7 +73,7 @@ impl Trial {
         };
         let obstacles = ground.grid.lethal_cells();
         Ok(Self {
-            map: ground.map.to_owned(),
+            map: ground.map.clone(),
             variant: variant.name.clone(),
             seed,
             arrived: path.is_some(),

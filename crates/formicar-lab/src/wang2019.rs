@@ -1,7 +1,8 @@
 //! Wang et al. 2019: narrow aisles, convergence, and the cost of the adjacency.
 
-use crate::experiment::{Ground, Reproduction, Scale, Variant, run_all};
-use crate::markdown::{Table, number, spread};
+use crate::experiment::{Ground, Scale, Setup, Variant, run_all};
+use crate::report::{Field, Report, Section, Table};
+use crate::reproduction::Reproduction;
 use crate::statistics::{quantile, quartiles};
 use crate::trial::Trial;
 use anyhow::Result;
@@ -12,7 +13,6 @@ use formicar::map::generate::{ScatterParameters, scattered_obstacles};
 use formicar::map::{BitGrid, DiagonalRule, MoveMasks};
 use formicar::numeric::Seed;
 use formicar::planner::{PlannerConfig, PlannerName};
-use std::fmt::Write;
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -25,15 +25,14 @@ const SIDES: [usize; 6] = [10, 20, 30, 40, 60, 80];
 ///
 /// # Errors
 /// None that is expected: maps and configurations are built in.
-pub fn wang2019(scale: Scale, tell: &mut dyn FnMut(&str)) -> Result<Reproduction> {
+pub fn wang2019(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproduction> {
     let grounds = MAPS.map(Ground::builtin);
     let grounds = grounds.into_iter().collect::<Result<Vec<_>>>()?;
-    let trials = run_all(&grounds, |_| variants(), scale, tell)?;
+    let trials = run_all(&grounds, |_| variants(), setup.scale, tell)?;
     tell("adjacency timing");
-    let mut summary = summary(&trials);
-    let timing = adjacency_table(scale)?;
-    let _ = write!(summary, "\n## Adjacency: Table 1 and figure 9\n\n{timing}");
-    Ok(Reproduction { trials, summary })
+    let timing = adjacency_table(setup.scale)?;
+    let report = report(&trials, timing);
+    Reproduction::of_trials(report, &trials, (&grounds, |_| variants()), setup.scale)
 }
 
 fn variants() -> Vec<Variant> {
@@ -59,62 +58,72 @@ fn variants() -> Vec<Variant> {
     ]
 }
 
-fn summary(trials: &[Trial]) -> String {
-    let mut text = "# Wang et al. 2019: aisles, convergence, adjacency\n\n\
-        Lengths in cells, a diagonal step counting the square root of 2; medians with quartiles. \
-        `squeezes` are diagonal steps between two obstacles that meet at a corner: runs with any. \
-        `to best` is the iteration that found the best way, `to 1 %` the one that found a way at \
-        most 1 % dearer.\n"
-        .to_owned();
-    for map in MAPS {
-        let _ = write!(text, "\n## {map}\n\n{}", table(map, trials));
+fn report(trials: &[Trial], timing: Table) -> Report {
+    let maps = MAPS.map(|map| Section::of_table(map, table(map, trials)));
+    let timing = Section::of_table("Adjacency: Table 1 and figure 9", timing);
+    Report {
+        name: "wang2019".to_owned(),
+        title: "Wang et al. 2019: aisles, convergence, adjacency".to_owned(),
+        intro: "Lengths in cells, a diagonal step counting the square root of 2; medians with \
+                quartiles. `squeezes` are diagonal steps between two obstacles that meet at a \
+                corner: runs with any. `to best` is the iteration that found the best way, `to 1 \
+                %` the one that found a way at most 1 % dearer."
+            .to_owned(),
+        sections: maps.into_iter().chain([timing]).collect(),
     }
-    text
 }
 
-fn table(map: &str, trials: &[Trial]) -> String {
-    let mut table = Table::new(&[
-        "variant",
-        "arrived",
-        "squeezes",
-        "length",
-        "/ optimum",
-        "to best",
-        "to 1 %",
-        "ms",
-    ]);
+fn table(map: &str, trials: &[Trial]) -> Table {
+    let mut table = Table::new(
+        map,
+        &[
+            "variant",
+            "arrived",
+            "squeezes",
+            "length",
+            "/ optimum",
+            "to best",
+            "to 1 %",
+            "ms",
+        ],
+    );
     for variant in variants() {
         let belongs = |trial: &&Trial| trial.map == map && trial.variant == variant.name;
         let own: Vec<&Trial> = trials.iter().filter(belongs).collect();
         let values = |of: fn(&Trial) -> Option<f64>| -> Vec<f64> {
             own.iter().filter_map(|trial| of(trial)).collect()
         };
-        let median = |of: fn(&Trial) -> Option<f64>| quantile(&values(of), 0.5);
+        let number =
+            |of: fn(&Trial) -> Option<f64>, n| Field::Number(quantile(&values(of), 0.5), n);
         let count = |is: fn(&Trial) -> bool| own.iter().filter(|trial| is(trial)).count();
-        table.row(&[
-            variant.name,
-            format!("{}/{}", count(|trial| trial.arrived), own.len()),
-            count(|t| t.n_squeezes.is_some_and(|n| n > 0)).to_string(),
-            spread(quartiles(&values(|trial| trial.length_cells)), 1),
-            number(median(|t| Some(t.length_cells? / t.optimum_cells?)), 3),
-            number(median(|trial| Some(f64::from(trial.n_to_best?))), 0),
-            number(median(|trial| Some(f64::from(trial.n_to_1_percent?))), 0),
-            number(median(|trial| Some(trial.query_ms)), 1),
+        let n_squeezing = count(|t| t.n_squeezes.is_some_and(|n| n > 0));
+        table.row(vec![
+            Field::words(&variant.name),
+            Field::Count(count(|trial| trial.arrived), own.len()),
+            Field::Number(Some(n_squeezing as f64), 0),
+            Field::Spread(quartiles(&values(|trial| trial.length_cells)), 1),
+            number(|t| Some(t.length_cells? / t.optimum_cells?), 3),
+            number(|trial| Some(f64::from(trial.n_to_best?)), 0),
+            number(|trial| Some(f64::from(trial.n_to_1_percent?)), 0),
+            number(|trial| Some(trial.query_ms), 1),
         ]);
     }
-    table.finish()
+    table
 }
 
 /// Median times of the adjacency by both calculations, and of the move masks in use.
-fn adjacency_table(scale: Scale) -> Result<String> {
-    let mut table = Table::new(&[
-        "map",
-        "global, ms",
-        "analytical, ms",
-        "ratio",
-        "paper's ratio",
-        "move masks, ms",
-    ]);
+fn adjacency_table(scale: Scale) -> Result<Table> {
+    let mut table = Table::new(
+        "adjacency",
+        &[
+            "map",
+            "global, ms",
+            "analytical, ms",
+            "ratio",
+            "paper's ratio",
+            "move masks, ms",
+        ],
+    );
     for side in SIDES {
         let blocked = scattered(side)?;
         let rule = DiagonalRule::AtMostOneObstacle;
@@ -127,16 +136,16 @@ fn adjacency_table(scale: Scale) -> Result<String> {
         ];
         // Table 1: 0.0037 s and 0.00087734 s on average.
         let paper = (side == 20).then_some(0.0037 / 8.7734e-4);
-        table.row(&[
-            format!("{side} x {side}"),
-            format!("{global:.4}"),
-            format!("{analytical:.4}"),
-            format!("{:.1}", global / analytical),
-            number(paper, 1),
-            format!("{masks:.5}"),
+        table.row(vec![
+            Field::Words(format!("{side} x {side}")),
+            Field::Number(Some(global), 4),
+            Field::Number(Some(analytical), 4),
+            Field::Number(Some(global / analytical), 1),
+            Field::Number(paper, 1),
+            Field::Number(Some(masks), 5),
         ]);
     }
-    Ok(table.finish())
+    Ok(table)
 }
 
 /// A square map with about a fifth of its cells occupied.

@@ -5,12 +5,16 @@
     reason = "a test suite: helpers outside of tests may fail and say that they skip"
 )]
 
+use formicar::collision::ObstacleMap;
+use formicar::geometry::Pose2;
+use formicar::map::builtin::BuiltinMap;
 use formicar::map::{BitGrid, Cell, DiagonalRule, MoveMasks, STEPS};
 use formicar::map::{Components, DistanceField};
 use formicar::progress::{Limits, Observer, Status};
 use formicar::search::{
     AstarWorkspace, DIAGONAL_COST, GoalField, GridSearch, STRAIGHT_COST, SearchError, astar,
 };
+use formicar::vehicle::Vehicle;
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -298,4 +302,33 @@ fn movingai_optima_are_met() {
             }
         }
     }
+}
+
+#[test]
+fn the_route_of_li_neighborhood_is_92_m_long_and_leads_through_alleys() {
+    let map = BuiltinMap::by_name("li-neighborhood").unwrap();
+    let (grid, ends) = (map.grid(), map.request("route-92m").unwrap());
+    let half_width_m = 0.5 * Vehicle::preset(map.vehicle).unwrap().width_m();
+    let obstacles = ObstacleMap::new(&grid);
+    let half_width_cells = half_width_m / grid.frame().resolution_m();
+    let grown = obstacles.distance().within(half_width_cells).unwrap();
+    let moves = MoveMasks::new(&grown, DiagonalRule::NoObstacles);
+    let cell = |pose: Pose2| grid.frame().cell_at(pose.position()).unwrap();
+    let field = goal_field(&moves, &[cell(ends.goal)]);
+    let length_m = 0.2 * field.distance_cells(cell(ends.start)).unwrap();
+    assert!((length_m - 92.0).abs() < 2.0, "{length_m}");
+    let cells = field.path(&moves, cell(ends.start)).unwrap().path.cells;
+    let lethal = grid.lethal_cells();
+    let is_narrow = |&&cell: &&Cell| width_cells(&lethal, cell) <= 16;
+    assert!(2 * cells.iter().filter(is_narrow).count() > cells.len());
+}
+
+/// Free cells between the obstacles left and right of a cell, or above and below.
+fn width_cells(lethal: &BitGrid, cell: Cell) -> usize {
+    let run = |dx: i64, dy: i64| {
+        let at = |k: i64| (i64::from(cell.col) + k * dx, i64::from(cell.row) + k * dy);
+        let is_free = |&k: &i64| !lethal.contains(at(k).0, at(k).1);
+        (1..800).take_while(is_free).count()
+    };
+    (1 + run(1, 0) + run(-1, 0)).min(1 + run(0, 1) + run(0, -1))
 }

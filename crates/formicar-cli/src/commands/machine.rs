@@ -6,6 +6,15 @@ use std::thread::available_parallelism;
 
 /// The machine, the program and the command, as Markdown; what is unknown is left out.
 pub(crate) fn description() -> String {
+    let mut text = "# Machine\n\n| | |\n|---|---|\n".to_owned();
+    for (name, fact) in facts() {
+        let _ = writeln!(text, "| {name} | {} |", fact.replace('|', "\\|"));
+    }
+    text
+}
+
+/// What is known of the machine, the program and the command.
+pub(crate) fn facts() -> Vec<(&'static str, String)> {
     let read = |path: &str| fs::read_to_string(path).unwrap_or_default();
     let facts = [
         ("Processor", processor()),
@@ -17,13 +26,10 @@ pub(crate) fn description() -> String {
         ("Compiler", option_env!("FORMICAR_RUSTC").map(str::to_owned)),
         ("Command", Some(command())),
     ];
-    let mut text = "# Machine\n\n| | |\n|---|---|\n".to_owned();
-    for (name, fact) in facts {
-        if let Some(fact) = fact.filter(|fact| !fact.is_empty()) {
-            let _ = writeln!(text, "| {name} | {} |", fact.replace('|', "\\|"));
-        }
-    }
-    text
+    let known = facts
+        .into_iter()
+        .filter_map(|(name, fact)| Some((name, fact?)));
+    known.filter(|(_, fact)| !fact.is_empty()).collect()
 }
 
 /// The processor's name.

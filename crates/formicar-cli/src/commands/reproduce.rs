@@ -5,7 +5,8 @@ use crate::failure::{Ending, Failure};
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum, ValueHint};
 use formicar::map::format::write_atomically;
-use formicar_lab::{Reproduction, Scale};
+use formicar_lab::report::{Fact, markdown};
+use formicar_lab::{Reproduction, Scale, Setup};
 use indicatif::ProgressBar;
 use std::fs;
 use std::io::Write;
@@ -24,6 +25,10 @@ pub(crate) struct ReproduceArgs {
     /// Few seeds, to see that it works: numbers mean little.
     #[arg(long)]
     pub(crate) quick: bool,
+
+    /// Folder of data sets, of which `li2024` uses `car/hood_800x500.json` where it is there.
+    #[arg(long, value_name = "DIR", default_value = "../shared/data", value_hint = ValueHint::DirPath)]
+    pub(crate) data: PathBuf,
 }
 
 /// The papers that can be repeated.
@@ -33,19 +38,22 @@ pub(crate) enum Paper {
     Lei2020,
     /// Wang et al. 2019: narrow aisles, convergence, adjacency.
     Wang2019,
+    /// Li et al. 2024: FACO and six rivals on a neighborhood, beside Tables 1 and 2.
+    Li2024,
     /// All of them.
     All,
 }
 
 /// Runs the experiment of a paper.
-type Experiment = fn(Scale, &mut dyn FnMut(&str)) -> Result<Reproduction>;
+type Experiment = fn(&Setup, &mut dyn FnMut(&str)) -> Result<Reproduction>;
 
 impl Paper {
     fn experiments(self) -> Vec<(&'static str, Experiment)> {
         match self {
             Self::Lei2020 => vec![("lei2020", formicar_lab::lei2020)],
             Self::Wang2019 => vec![("wang2019", formicar_lab::wang2019)],
-            Self::All => [Self::Lei2020, Self::Wang2019]
+            Self::Li2024 => vec![("li2024", formicar_lab::li2024)],
+            Self::All => [Self::Lei2020, Self::Wang2019, Self::Li2024]
                 .into_iter()
                 .flat_map(Self::experiments)
                 .collect(),
@@ -55,24 +63,27 @@ impl Paper {
 
 /// Carries out `reproduce`.
 pub(crate) fn run(args: &ReproduceArgs, out: &mut impl Write) -> Result<Ending, Failure> {
-    let scale = if args.quick {
-        Scale::QUICK
-    } else {
-        Scale::FULL
+    let setup = Setup {
+        scale: if args.quick {
+            Scale::QUICK
+        } else {
+            Scale::FULL
+        },
+        data: args.data.clone(),
     };
     for (name, experiment) in args.paper.experiments() {
         let bar = ProgressBar::new_spinner();
-        let reproduction = experiment(scale, &mut |what| bar.set_message(what.to_owned()));
+        let reproduction = experiment(&setup, &mut |what| bar.set_message(what.to_owned()));
         bar.finish_and_clear();
         let folder = args.out.join(name);
         let reproduction = reproduction?;
         write_all(&folder, &reproduction)?;
-        write!(out, "{}", reproduction.summary)?;
+        write!(out, "{}", markdown(&reproduction.report))?;
         writeln!(
             out,
             "\n{} runs: see {}\n",
-            reproduction.trials.len(),
-            folder.display()
+            reproduction.n_runs,
+            folder.join("index.html").display()
         )?;
     }
     Ok(Ending::Done)
@@ -80,11 +91,11 @@ pub(crate) fn run(args: &ReproduceArgs, out: &mut impl Write) -> Result<Ending, 
 
 fn write_all(folder: &Path, reproduction: &Reproduction) -> Result<()> {
     fs::create_dir_all(folder).with_context(|| format!("{} cannot be made", folder.display()))?;
-    for (name, text) in [
-        ("results.csv", reproduction.csv()?),
-        ("summary.md", reproduction.summary.clone()),
-        ("MACHINE.md", machine::description()),
-    ] {
+    let facts = machine::facts();
+    let facts = facts.iter().map(|(name, value)| Fact::new(name, value));
+    let mut files = reproduction.files(&facts.collect::<Vec<_>>());
+    files.push(("MACHINE.md", machine::description()));
+    for (name, text) in files {
         let path = folder.join(name);
         write_atomically(&path, text.as_bytes())
             .with_context(|| format!("{} cannot be written", path.display()))?;

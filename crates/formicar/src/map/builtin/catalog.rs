@@ -9,7 +9,7 @@ const NORTH: f64 = FRAC_PI_2;
 const WEST: f64 = PI;
 const SOUTH: f64 = -FRAC_PI_2;
 
-pub(super) static MAPS: [BuiltinMap; 15] = [
+pub(super) static MAPS: [BuiltinMap; 16] = [
     BuiltinMap {
         name: "lei-map1",
         about: "21 x 21 cells of 0.5 m, half the width of the lei2020 vehicle, as in Lei & Zheng 2020: \
@@ -107,6 +107,20 @@ pub(super) static MAPS: [BuiltinMap; 15] = [
             request("into-dead-end", [70.0, 94.0, SOUTH], [93.0, 77.0, SOUTH]),
         ],
         source: Source::Drawing(scenes::neighborhood),
+    },
+    BuiltinMap {
+        name: "li-neighborhood",
+        about: "800 x 500 cells of 0.2 m for the lei2020 vehicle (1.0 x 3.0 m), the size of the \
+                neighborhood in Li et al. 2024, from the generator of alley neighborhoods. The route \
+                is 92 m long over cells, most of it in alleys of 3.2 m and less.",
+        kind: BuiltinKind::Scene,
+        vehicle: "lei2020",
+        requests: &[request(
+            "route-92m",
+            [151.5, 37.5, WEST],
+            [97.5, 85.5, NORTH],
+        )],
+        source: Source::Drawing(scenes::li_neighborhood),
     },
     BuiltinMap {
         name: "narrow-aisle",

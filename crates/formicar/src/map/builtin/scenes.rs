@@ -132,3 +132,9 @@ pub(super) fn neighborhood() -> OccupancyGrid {
     generate::alley_neighborhood(&NeighborhoodParameters::default(), Seed(6))
         .expect("the default parameters are in range")
 }
+
+/// Another of the generator's neighborhoods with its default parameters.
+pub(super) fn li_neighborhood() -> OccupancyGrid {
+    generate::alley_neighborhood(&NeighborhoodParameters::default(), Seed(15))
+        .expect("the default parameters are in range")
+}

@@ -37,6 +37,7 @@ fn sizes_are_as_stated() {
         ("warehouse", 800, 500, 0.05),
         ("parking-lot", 600, 340, 0.1),
         ("neighborhood", 800, 500, 0.2),
+        ("li-neighborhood", 800, 500, 0.2),
     ];
     for (name, n_cols, n_rows, resolution_m) in sizes {
         let grid = BuiltinMap::by_name(name).unwrap().grid();

@@ -1,0 +1,108 @@
+//! What stands in a cell of a table.
+
+use crate::statistics::wilson_interval;
+
+/// A field of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Field {
+    /// Words.
+    Words(String),
+    /// A number with so many decimals; a dash for none.
+    Number(Option<f64>, usize),
+    /// A number with its interval, or a median with its quartiles: `[low, value, high]`.
+    Spread(Option<[f64; 3]>, usize),
+    /// So many of so many.
+    Count(usize, usize),
+    /// So many of so many, with the 95 % interval of the rate in percent (Wilson).
+    Rate(usize, usize),
+}
+
+/// A number as it is written, and what its name ends with.
+pub(super) struct Part {
+    pub(super) suffix: &'static str,
+    pub(super) text: String,
+}
+
+const NONE: &str = "-";
+
+impl Field {
+    /// Words.
+    pub fn words(words: &str) -> Self {
+        Self::Words(words.to_owned())
+    }
+
+    /// The field as text.
+    pub fn text(&self) -> String {
+        let parts = self.parts();
+        let written: Vec<&str> = parts.iter().map(|part| part.text.as_str()).collect();
+        self.laid_out(&written)
+    }
+
+    /// Its numbers; none of words and of what is missing.
+    pub(super) fn parts(&self) -> Vec<Part> {
+        let parts = |named: Vec<(&'static str, String)>| {
+            let part = |(suffix, text)| Part { suffix, text };
+            named.into_iter().map(part).collect()
+        };
+        match *self {
+            Self::Words(_) | Self::Number(None, _) | Self::Spread(None, _) => Vec::new(),
+            Self::Number(Some(value), n) => parts(vec![("", decimal(value, n))]),
+            Self::Spread(Some([low, value, high]), n) => parts(vec![
+                ("", decimal(value, n)),
+                ("low", decimal(low, n)),
+                ("high", decimal(high, n)),
+            ]),
+            Self::Count(n, of) => parts(vec![("", n.to_string()), ("of", of.to_string())]),
+            Self::Rate(n, of) => {
+                let (low, high) = wilson_interval(n, of);
+                parts(vec![
+                    ("", n.to_string()),
+                    ("of", of.to_string()),
+                    ("low", decimal(100.0 * low, 0)),
+                    ("high", decimal(100.0 * high, 0)),
+                ])
+            }
+        }
+    }
+
+    /// The field around its numbers, as they are written.
+    pub(super) fn laid_out(&self, parts: &[&str]) -> String {
+        match (self, parts) {
+            (Self::Words(words), _) => words.clone(),
+            (Self::Number(..), [value]) => (*value).to_owned(),
+            (Self::Spread(..), [value, low, high]) => format!("{value} [{low}, {high}]"),
+            (Self::Count(..), [n, of]) => format!("{n}/{of}"),
+            (Self::Rate(..), [n, of, low, high]) => format!("{n}/{of} [{low}, {high}] %"),
+            _ => NONE.to_owned(),
+        }
+    }
+}
+
+/// A number with so many decimals, never a negative nought.
+fn decimal(value: f64, n_decimals: usize) -> String {
+    let text = format!("{value:.n_decimals$}");
+    let is_nought = text.starts_with('-') && text.chars().all(|c| "-0.".contains(c));
+    text[usize::from(is_nought)..].to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fields_are_written() {
+        for (field, text) in [
+            (Field::words("a"), "a"),
+            (Field::Number(Some(1.25), 1), "1.2"),
+            (Field::Number(Some(-0.01), 1), "0.0"),
+            (Field::Number(Some(-0.5), 1), "-0.5"),
+            (Field::Number(None, 1), "-"),
+            (Field::Spread(Some([1.0, 2.0, 3.0]), 0), "2 [1, 3]"),
+            (Field::Spread(None, 0), "-"),
+            (Field::Count(3, 4), "3/4"),
+            (Field::Rate(31, 31), "31/31 [89, 100] %"),
+        ] {
+            assert_eq!(field.text(), text);
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! Tables as LaTeX, with a macro for every number.
+
+use super::keys::{Keys, NamedPart};
+use super::{Report, Table};
+use std::fmt::Write;
+
+/// The tables of a report for `\input` in a document that uses `booktabs`: first a `\newcommand`
+/// per number, for use in running text, then the tables, which use the same macros.
+pub fn latex(report: &Report) -> String {
+    let mut keys = Keys::of(report);
+    let (mut macros, mut tables) = (String::new(), String::new());
+    for table in report.tables() {
+        let named = keys.name(table);
+        for part in named.iter().flatten().flatten() {
+            let _ = writeln!(macros, "\\newcommand{{\\{}}}{{{}}}", part.key, part.text);
+        }
+        tables.push_str(&of_table(report, table, &named));
+    }
+    format!(
+        "% {}\n% Needs \\usepackage{{booktabs}}.\n{macros}{tables}",
+        report.title
+    )
+}
+
+fn of_table(report: &Report, table: &Table, named: &[Vec<Vec<NamedPart>>]) -> String {
+    let columns = "r".repeat(table.heading.len().saturating_sub(1));
+    let caption = if table.caption.is_empty() {
+        &report.title
+    } else {
+        &table.caption
+    };
+    let heading: Vec<String> = table.heading.iter().map(|name| escaped(name)).collect();
+    let mut text = format!(
+        "\n\\begin{{table}}\n\\caption{{{}}}\n\\label{{tab:{}-{}}}\n\\begin{{tabular}}{{l{columns}}}\n\
+         \\toprule\n{} \\\\\n\\midrule\n",
+        escaped(caption),
+        report.name,
+        table.key,
+        heading.join(" & ")
+    );
+    for (row, named) in table.rows.iter().zip(named) {
+        let fields = row.iter().zip(named).map(|(field, parts)| {
+            let macros: Vec<String> = parts.iter().map(|p| format!("\\{}{{}}", p.key)).collect();
+            let macros: Vec<&str> = macros.iter().map(String::as_str).collect();
+            let laid_out = field.laid_out(&macros);
+            if parts.is_empty() {
+                escaped(&laid_out)
+            } else {
+                laid_out.replace('%', "\\%")
+            }
+        });
+        let fields: Vec<String> = fields.collect();
+        let _ = writeln!(text, "{} \\\\", fields.join(" & "));
+    }
+    text + "\\bottomrule\n\\end{tabular}\n\\end{table}\n"
+}
+
+/// Words for LaTeX; those between backticks as code.
+fn escaped(words: &str) -> String {
+    let mut text = String::new();
+    for (i, part) in words.split('`').enumerate() {
+        let plain: String = part.chars().map(escaped_char).collect();
+        let _ = match i % 2 {
+            0 => write!(text, "{plain}"),
+            _ => write!(text, "\\texttt{{{plain}}}"),
+        };
+    }
+    text
+}
+
+fn escaped_char(c: char) -> String {
+    match c {
+        '\\' => "\\textbackslash{}".to_owned(),
+        '~' => "\\textasciitilde{}".to_owned(),
+        '^' => "\\textasciicircum{}".to_owned(),
+        '<' => "$<$".to_owned(),
+        '>' => "$>$".to_owned(),
+        '%' | '&' | '#' | '_' | '$' | '{' | '}' => format!("\\{c}"),
+        c => c.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::{Field, Section};
+
+    #[test]
+    fn numbers_are_macros_and_words_are_escaped() {
+        let mut table = Table::new("t", &["who", "share %"]).captioned("Of `a_b` & c.");
+        table.row(vec![Field::words("x_1"), Field::Rate(3, 3)]);
+        let report = Report {
+            name: "p".to_owned(),
+            sections: vec![Section::of_table("Part", table)],
+            ..Report::default()
+        };
+        let text = latex(&report);
+        assert!(
+            text.contains("\\newcommand{\\pTXOneShareLow}{44}"),
+            "{text}"
+        );
+        assert!(
+            text.contains("x\\_1 & \\pTXOneShare{}/\\pTXOneShareOf{} ["),
+            "{text}"
+        );
+        assert!(
+            text.contains("\\caption{Of \\texttt{a\\_b} \\& c.}"),
+            "{text}"
+        );
+        assert!(text.contains("] \\% \\\\\n\\bottomrule"), "{text}");
+    }
+}

@@ -1,0 +1,46 @@
+//! Tables.
+
+use super::Field;
+
+/// A table: a heading row, and rows of as many fields.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// A word that names it within its report.
+    pub key: String,
+    /// What it shows; may be empty.
+    pub caption: String,
+    /// Names of the columns, of which the first names the rows.
+    pub heading: Vec<String>,
+    /// The rows.
+    pub rows: Vec<Row>,
+}
+
+/// A row: the first field is its name.
+pub type Row = Vec<Field>;
+
+impl Table {
+    /// A table without rows.
+    pub fn new(key: &str, heading: &[&str]) -> Self {
+        Self {
+            key: key.to_owned(),
+            caption: String::new(),
+            heading: heading.iter().map(|&name| name.to_owned()).collect(),
+            rows: Vec::new(),
+        }
+    }
+
+    /// The same table with a caption.
+    #[must_use]
+    pub fn captioned(self, caption: &str) -> Self {
+        Self {
+            caption: caption.to_owned(),
+            ..self
+        }
+    }
+
+    /// Appends a row.
+    pub fn row(&mut self, fields: Row) {
+        debug_assert_eq!(fields.len(), self.heading.len());
+        self.rows.push(fields);
+    }
+}
