@@ -90,16 +90,22 @@ pub fn smooth(
     }
     let body = Body::new(ground.vehicle);
     let ends = ends(ground, request, config.corners, &body);
+    let own_m = ground.vehicle.parameters().safety_margin_m.unwrap_or(0.0);
+    let careful = ground
+        .vehicle
+        .with_safety_margin(own_m + config.arc_margin_m);
+    let careful_body = careful.map_or(body.clone(), |vehicle| Body::new(&vehicle));
     let task = Task {
         obstacles: ground.obstacles,
         body: &body,
+        careful_body: &careful_body,
         radius_m: ground.vehicle.min_turning_radius_m(),
         config,
         motion: request.motion,
         ends: &ends,
     };
     if config.corners == Corners::WideArcs
-        && let Some(way) = widest_with_margin(ground, &task, &points)
+        && let Some(way) = widest(&task, &points)
     {
         return Ok(by_wide_arcs(ground, request, &way));
     }
@@ -194,20 +200,6 @@ fn assembled(ground: &Ground, request: &Request, map: &Roadmap, pieces: &[Piece]
         waypoints,
         corners,
     }
-}
-
-/// The way by wide arcs that keeps a margin or, where there is none, one that keeps none.
-fn widest_with_margin(ground: &Ground, task: &Task, points: &[Point2]) -> Option<WideWay> {
-    let own_m = ground.vehicle.parameters().safety_margin_m.unwrap_or(0.0);
-    let wider = ground
-        .vehicle
-        .with_safety_margin(own_m + task.config.arc_margin_m);
-    let body = wider.map(|vehicle| Body::new(&vehicle)).ok()?;
-    let careful = Task {
-        body: &body,
-        ..*task
-    };
-    widest(&careful, points).or_else(|| widest(task, points))
 }
 
 fn by_wide_arcs(ground: &Ground, request: &Request, way: &WideWay) -> Smoothed {

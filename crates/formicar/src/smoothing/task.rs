@@ -22,6 +22,8 @@ pub(super) struct Ends {
 pub(super) struct Task<'a> {
     pub(super) obstacles: &'a ObstacleMap,
     pub(super) body: &'a Body,
+    /// The body with the margin that it keeps where it can.
+    pub(super) careful_body: &'a Body,
     pub(super) radius_m: f64,
     pub(super) config: &'a SmoothingConfig,
     pub(super) motion: MotionMode,
@@ -60,16 +62,31 @@ impl Task<'_> {
         self.obstacles.is_free(self.body, &drive(start, arc))
     }
 
-    /// Whether the body is free along arcs driven one after the other. They are cut into short
-    /// pieces, and those that look tightest are checked first: what hits, mostly does so there.
+    /// Whether the body is free along arcs driven one after the other.
     pub(super) fn all_free(&self, start: Pose2, arcs: &[Arc]) -> bool {
+        self.is_body_free(self.body, start, arcs)
+    }
+
+    /// What it costs that the body passes near obstacles along arcs, metres: nothing where it
+    /// keeps its margin; none where it hits something.
+    pub(super) fn tightness_m(&self, start: Pose2, arcs: &[Arc]) -> Option<f64> {
+        if self.is_body_free(self.careful_body, start, arcs) {
+            return Some(0.0);
+        }
+        self.all_free(start, arcs)
+            .then_some(self.config.tight_radii * self.radius_m)
+    }
+
+    /// The arcs are cut into short pieces, and those that look tightest are checked first: what
+    /// hits, mostly does so there.
+    fn is_body_free(&self, body: &Body, start: Pose2, arcs: &[Arc]) -> bool {
         let mut pose = start;
         let mut pieces = Vec::new();
         for &arc in arcs {
             let drive = drive(pose, arc);
-            for piece in drive.pieces(drive.n_pieces(self.body)) {
+            for piece in drive.pieces(drive.n_pieces(body)) {
                 let middle = piece.pose_at(0.5);
-                let ceiling_m = self.obstacles.clearance_ceiling_m(self.body, middle);
+                let ceiling_m = self.obstacles.clearance_ceiling_m(body, middle);
                 if ceiling_m < 0.0 {
                     return false;
                 }
@@ -79,7 +96,7 @@ impl Task<'_> {
         }
         pieces.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut pieces = pieces.iter();
-        pieces.all(|(_, piece)| self.obstacles.is_free(self.body, piece))
+        pieces.all(|(_, piece)| self.obstacles.is_free(body, piece))
     }
 
     /// Factor on a length driven in a gear, +1 or -1.

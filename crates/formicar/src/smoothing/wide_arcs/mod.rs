@@ -5,8 +5,10 @@
 //! more the tighter the arc. The widest arc that two legs have room for goes on the list first; it
 //! is checked with the swept body when it comes up, and gives way to tighter ones. Dubins or
 //! Reeds-Shepp curves lead from a given start heading onto a leg, and from a leg to a given goal
-//! heading.
+//! heading. What is found is then made better by moving its corners about.
 
+mod fillet;
+mod refine;
 mod search;
 mod sight;
 

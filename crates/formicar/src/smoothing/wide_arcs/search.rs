@@ -1,19 +1,14 @@
 //! A* over legs and the arcs between them.
 
+use super::super::TwoTurning;
 use super::super::open_list::OpenList;
 use super::super::task::Task;
-use super::super::{TurnOrder, TwoTurning};
+use super::fillet::Fillet;
+use super::refine::Chain;
 use super::sight::{Sight, Sights};
 use crate::geometry::{Arc, Curve, Point2, Pose2, angle_difference};
 use std::collections::HashMap;
-use std::f64::consts::PI;
 
-/// Factor from an arc's radius to the next one tried.
-const TIGHTER: f64 = 0.75;
-/// Turns below this are none, radians.
-const STRAIGHT_RAD: f64 = 1e-9;
-/// The sharpest corner, radians.
-const MAX_TURN_RAD: f64 = 0.75 * PI;
 /// How much of a leg a corner may take where it cannot do with half.
 const CROWDED_SHARE: f64 = 0.95;
 /// How far from the ends curves to given headings begin and end, turning radii.
@@ -67,7 +62,7 @@ pub(in super::super) fn widest(task: &Task, polyline: &[Point2]) -> Option<WideW
             Step::TailCurve(leg, curve) if search.is_tail_free(leg, curve) => {
                 return Some(search.way(leg, Some(curve)));
             }
-            Step::End(leg) if search.is_straight_free(leg, search.legs[leg].sight.distance_m) => {
+            Step::End(leg) if search.is_whole_leg_free(leg) => {
                 return Some(search.way(leg, None));
             }
             Step::TailCurve(..) | Step::End(_) => {}
@@ -83,7 +78,7 @@ enum Step {
     Lead(usize, Sight),
     /// A curve from the start onto a leg.
     LeadCurve(usize, Sight, usize),
-    /// From a leg to the next by an arc, the widest times [`TIGHTER`] to a power.
+    /// From a leg to the next by an arc, the widest made tighter so many times.
     Turn(usize, Sight, i32),
     /// Some curve from the end of a leg to the goal, at a lower bound of its cost.
     Tail(usize),
@@ -101,7 +96,7 @@ enum Reached {
     /// By a curve from the start.
     ByCurve(usize),
     /// From a leg, by an arc or straight on.
-    FromLeg(usize, Option<Rounded>),
+    FromLeg(usize, Fillet),
 }
 
 struct Leg {
@@ -113,6 +108,8 @@ struct Leg {
     /// From there the body is known to be free up to here, and to hit something before there.
     clear_m: f64,
     hit_m: f64,
+    /// What it costs that it passes near obstacles on that way, metres.
+    tightness_m: f64,
 }
 
 struct Search<'a> {
@@ -207,8 +204,12 @@ impl Search<'_> {
         } else {
             self.task.config.direction_switching_cost
         };
-        if !self.is_closed(from, sight) && self.task.all_free(*start, arcs.arcs()) {
-            self.close(from, sight, Reached::ByCurve(curve), 0.0, cost + switch);
+        if self.is_closed(from, sight) {
+            return;
+        }
+        if let Some(tightness_m) = self.task.tightness_m(*start, arcs.arcs()) {
+            let cost = cost + switch + tightness_m;
+            self.close(from, sight, Reached::ByCurve(curve), 0.0, cost);
         }
     }
 
@@ -227,6 +228,7 @@ impl Search<'_> {
             begins_m,
             clear_m: begins_m,
             hit_m: f64::INFINITY,
+            tightness_m: 0.0,
         });
         let cost = cost + sight.distance_m;
         if sight.to == self.sights.last() {
@@ -252,60 +254,34 @@ impl Search<'_> {
         let Some(fillet) = self.fillet(leg, next, radius) else {
             return;
         };
-        let remaining = self.fillet_cost(&fillet) + next.distance_m + self.sights.rest_m(next.to);
+        let remaining = fillet.cost(self.task) + next.distance_m + self.sights.rest_m(next.to);
         self.open
             .push([cost, remaining], Step::Turn(leg, next, radius));
     }
 
     /// The arc at the end of a leg; none where the legs have no room for one or the turn is too
     /// sharp.
-    fn fillet(&self, leg: usize, next: Sight, radius: i32) -> Option<Fillet> {
+    fn fillet(&self, leg: usize, next: Sight, n_tighter: i32) -> Option<Fillet> {
         let Leg {
             sight, begins_m, ..
         } = self.legs[leg];
         let turn_rad = angle_difference(next.heading_rad, sight.heading_rad);
-        if turn_rad.abs() < STRAIGHT_RAD {
-            return (radius == 0).then_some(Fillet::default());
-        }
-        if turn_rad.abs() > MAX_TURN_RAD {
-            return None;
-        }
-        let tangent = (0.5 * turn_rad.abs()).tan();
-        let least_m = self.task.radius_m;
         // The next corner needs room too; at a free goal there is none.
         let is_last = next.to == self.sights.last() && self.task.ends.goal_is_free;
-        let share = match least_m * tangent {
-            _ if is_last => 1.0,
-            least if least <= 0.5 * next.distance_m => 0.5,
-            _ => CROWDED_SHARE,
+        let before_m = sight.distance_m - begins_m;
+        let with_share = |share: f64| {
+            let room_m = before_m.min(share * next.distance_m);
+            Fillet::new(self.task, turn_rad, room_m, n_tighter)
         };
-        let room_m = (sight.distance_m - begins_m).min(share * next.distance_m);
-        let widest_m = (room_m / tangent).min(self.task.config.max_arc_radii * least_m);
-        let wanted_m = widest_m * TIGHTER.powi(radius);
-        let radius_m = if wanted_m >= least_m {
-            wanted_m
-        } else if widest_m >= least_m && wanted_m > TIGHTER * least_m {
-            // The tightest of all is tried once, too.
-            least_m
-        } else {
-            return None;
-        };
-        Some(Fillet {
-            turn_rad,
-            radius_m,
-            tangent_m: radius_m * tangent,
-        })
-    }
-
-    /// What a corner costs beyond the length of its legs, metres.
-    fn fillet_cost(&self, fillet: &Fillet) -> f64 {
-        if fillet.turn_rad == 0.0 {
-            return 0.0;
+        if is_last {
+            return with_share(1.0);
         }
-        let (config, least_m) = (self.task.config, self.task.radius_m);
-        let bend = fillet.turn_rad.abs() * least_m * least_m / fillet.radius_m;
-        let shortened = 2.0 * fillet.tangent_m - fillet.turn_rad.abs() * fillet.radius_m;
-        self.corner_m() + config.bend_weight * bend - shortened
+        with_share(0.5).or_else(|| {
+            // Not where half was enough for a wider arc.
+            let half = before_m.min(0.5 * next.distance_m);
+            let was_enough = Fillet::new(self.task, turn_rad, half, 0).is_some();
+            (!was_enough).then(|| with_share(CROWDED_SHARE)).flatten()
+        })
     }
 
     /// Takes a turn if the body is free on the straight before it and on its arc; else opens the
@@ -319,20 +295,17 @@ impl Search<'_> {
             return;
         };
         let ends_m = self.legs[leg].sight.distance_m - fillet.tangent_m;
-        let is_free = self.is_straight_free(leg, ends_m) && self.is_arc_free(leg, ends_m, &fillet);
-        if !is_free {
+        let straight = self.straight_tightness_m(leg, ends_m);
+        let arc = straight.and_then(|_| self.arc_tightness_m(leg, ends_m, &fillet));
+        let Some((straight_m, arc_m)) = straight.zip(arc) else {
             self.open_turn(leg, next, radius + 1, cost);
             return;
-        }
-        let rounded = fillet.turning().map(|turning| Rounded {
-            place: self.sights.points[from],
-            turning,
-        });
-        let cost = cost + self.fillet_cost(&fillet);
+        };
+        let cost = cost + fillet.cost(self.task) + straight_m + arc_m;
         self.close(
             from,
             next,
-            Reached::FromLeg(leg, rounded),
+            Reached::FromLeg(leg, fillet),
             fillet.tangent_m,
             cost,
         );
@@ -344,28 +317,37 @@ impl Search<'_> {
         Pose2::at(self.sights.points[from], sight.heading_rad).advance(0.0, at_m)
     }
 
-    /// Whether the body is free from where a leg begins up to some metres from its first point.
-    fn is_straight_free(&mut self, leg: usize, up_to_m: f64) -> bool {
-        let Leg { clear_m, hit_m, .. } = self.legs[leg];
+    /// What it costs that the body passes near obstacles from where a leg begins up to some metres
+    /// from its first point; none where it hits something.
+    fn straight_tightness_m(&mut self, leg: usize, up_to_m: f64) -> Option<f64> {
+        let Leg {
+            clear_m,
+            hit_m,
+            tightness_m,
+            ..
+        } = self.legs[leg];
         if up_to_m <= clear_m {
-            return true;
+            return Some(tightness_m);
         }
         if up_to_m >= hit_m {
-            return false;
+            return None;
         }
         let arc = Arc::new(0.0, up_to_m - clear_m);
-        let is_free = self.task.all_free(self.pose(leg, clear_m), &[arc]);
+        let more_m = self.task.tightness_m(self.pose(leg, clear_m), &[arc]);
         let known = &mut self.legs[leg];
-        if is_free {
-            known.clear_m = up_to_m;
-        } else {
-            known.hit_m = up_to_m;
+        match more_m {
+            Some(more_m) => {
+                known.clear_m = up_to_m;
+                known.tightness_m = tightness_m.max(more_m);
+            }
+            None => known.hit_m = up_to_m,
         }
-        is_free
+        more_m.map(|_| known.tightness_m)
     }
 
-    fn is_arc_free(&self, leg: usize, from_m: f64, fillet: &Fillet) -> bool {
-        self.task.all_free(self.pose(leg, from_m), &[fillet.arc()])
+    fn arc_tightness_m(&self, leg: usize, from_m: f64, fillet: &Fillet) -> Option<f64> {
+        self.task
+            .tightness_m(self.pose(leg, from_m), &[fillet.arc()])
     }
 
     /// Puts the cheapest curves from the end of a leg to the goal on the list.
@@ -380,9 +362,13 @@ impl Search<'_> {
     }
 
     fn is_tail_free(&mut self, leg: usize, curve: usize) -> bool {
-        let length_m = self.legs[leg].sight.distance_m;
         let (start, curve) = &self.curves[curve];
-        self.task.all_free(*start, curve.arcs()) && self.is_straight_free(leg, length_m)
+        self.task.all_free(*start, curve.arcs()) && self.is_whole_leg_free(leg)
+    }
+
+    fn is_whole_leg_free(&mut self, leg: usize) -> bool {
+        let length_m = self.legs[leg].sight.distance_m;
+        self.straight_tightness_m(leg, length_m).is_some()
     }
 
     /// The way that ends with a leg and, where the goal's heading is given, a curve.
@@ -392,65 +378,40 @@ impl Search<'_> {
             legs.push(before);
         }
         legs.reverse();
-        let first = &self.legs[legs[0]];
-        let (start, mut arcs) = match first.reached {
-            Reached::ByCurve(curve) => {
-                let (start, curve) = &self.curves[curve];
-                (*start, curve.arcs().to_vec())
-            }
-            _ => (self.pose(legs[0], 0.0), Vec::new()),
+        let lead = match self.legs[legs[0]].reached {
+            Reached::ByCurve(curve) => Some(curve),
+            _ => None,
         };
-        let mut corners = Vec::new();
-        for (i, &leg) in legs.iter().enumerate() {
-            let corner = legs
-                .get(i + 1)
-                .and_then(|&next| match self.legs[next].reached {
-                    Reached::FromLeg(_, corner) => corner,
-                    _ => None,
-                });
-            let before_m = corner.map_or(0.0, |corner| corner.turning.before_m);
-            let length_m = self.legs[leg].sight.distance_m;
-            arcs.push(Arc::new(0.0, length_m - before_m - self.legs[leg].begins_m));
-            arcs.extend(corner.map(|corner| corner.turning.arcs()[0]));
-            corners.extend(corner);
-        }
-        arcs.extend(tail.iter().flat_map(|&tail| self.curves[tail].1.arcs()));
-        let mut points = vec![self.sights.points[0]];
-        points.extend(
-            legs.iter()
-                .map(|&leg| self.sights.points[self.legs[leg].from]),
-        );
+        let mut points: Vec<Point2> = legs
+            .iter()
+            .map(|&leg| self.sights.points[self.legs[leg].from])
+            .collect();
         points.push(self.sights.points[self.legs[last].sight.to]);
+        let fillets = legs[1..].iter().map(|&leg| match self.legs[leg].reached {
+            Reached::FromLeg(_, fillet) => fillet,
+            _ => Fillet::default(),
+        });
+        let mut chain = Chain {
+            points,
+            fillets: fillets.collect(),
+            tightness_m: vec![0.0; legs.len()],
+            first_is_fixed: lead.is_some(),
+            last_is_fixed: tail.is_some(),
+        };
+        chain.refine(self.task);
+        let arcs_of = |curve: Option<usize>| {
+            curve.map_or(Vec::new(), |curve| self.curves[curve].1.arcs().to_vec())
+        };
+        let start = lead.map_or(chain.pose(0, 0.0), |lead| self.curves[lead].0);
+        let mut points = vec![self.sights.points[0]];
+        points.extend(&chain.points);
         points.push(self.sights.points[self.sights.last()]);
         points.dedup();
         WideWay {
             start,
-            arcs,
+            arcs: [arcs_of(lead), chain.arcs(), arcs_of(tail)].concat(),
             points,
-            corners,
+            corners: chain.corners(),
         }
-    }
-}
-
-/// An arc that rounds a corner; one without a turn goes straight on.
-#[derive(Clone, Copy, Debug, Default)]
-struct Fillet {
-    turn_rad: f64,
-    radius_m: f64,
-    /// From where the arc begins to the corner, and from there to where it ends, metres.
-    tangent_m: f64,
-}
-
-impl Fillet {
-    fn arc(&self) -> Arc {
-        if self.turn_rad == 0.0 {
-            return Arc::new(0.0, 0.0);
-        }
-        let length_m = self.turn_rad.abs() * self.radius_m;
-        Arc::new(self.turn_rad.signum() / self.radius_m, length_m)
-    }
-
-    fn turning(&self) -> Option<TwoTurning> {
-        TwoTurning::new(self.turn_rad, self.radius_m, TurnOrder::AvoidFirst, 0.0)
     }
 }

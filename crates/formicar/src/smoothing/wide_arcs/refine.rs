@@ -1,0 +1,252 @@
+//! A chain of legs and arcs made cheaper by moving and leaving out corners.
+
+use super::super::task::Task;
+use super::fillet::Fillet;
+use super::search::Rounded;
+use crate::geometry::{Arc, Point2, Pose2, angle_difference};
+use std::ops::RangeInclusive;
+
+/// How far corners are moved, in turning radii, ever less.
+const MOVES_RADII: [f64; 4] = [0.6, 0.3, 0.12, 0.05];
+/// Passes over all corners with each.
+const MAX_PASSES: usize = 4;
+/// What a change must gain, metres.
+const LEAST_GAIN_M: f64 = 1e-6;
+/// How many tighter arcs are tried at a moved corner.
+const MAX_TIGHTER: i32 = 8;
+
+/// Points with an arc at each but the first and the last.
+#[derive(Clone, Debug)]
+pub(super) struct Chain {
+    pub(super) points: Vec<Point2>,
+    pub(super) fillets: Vec<Fillet>,
+    /// What it costs that a leg passes near obstacles, metres.
+    pub(super) tightness_m: Vec<f64>,
+    /// Whether the first leg must keep its direction, and the last one.
+    pub(super) first_is_fixed: bool,
+    pub(super) last_is_fixed: bool,
+}
+
+impl Chain {
+    /// Moves each corner about, and leaves corners out, as long as that gains something.
+    pub(super) fn refine(&mut self, task: &Task) {
+        self.measure(task);
+        for step_radii in MOVES_RADII {
+            for _ in 0..MAX_PASSES {
+                if !self.pass(task, step_radii * task.radius_m) {
+                    break;
+                }
+            }
+        }
+    }
+
+    /// Works out how near to obstacles all arcs and legs pass.
+    fn measure(&mut self, task: &Task) {
+        for corner in 1..self.points.len() - 1 {
+            let fillet = self.fillets[corner - 1];
+            let tightness_m = self.arc_tightness_m(task, corner, &fillet);
+            self.fillets[corner - 1].tightness_m = tightness_m.unwrap_or_default();
+        }
+        self.measure_legs(task, 0..=self.points.len() - 2);
+    }
+
+    /// Tries all corners once; whether anything was gained.
+    fn pass(&mut self, task: &Task, step_m: f64) -> bool {
+        let mut has_gained = false;
+        let mut corner = 1;
+        while corner < self.points.len() - 1 {
+            let without = self.without(corner);
+            if without.is_some_and(|chain| self.take_if_cheaper(task, chain, corner - 1..=corner)) {
+                has_gained = true;
+                continue;
+            }
+            for to in self.moves(corner, step_m) {
+                let mut moved = self.clone();
+                moved.points[corner] = to;
+                if self.take_if_cheaper(task, moved, corner - 1..=corner + 1) {
+                    has_gained = true;
+                }
+            }
+            corner += 1;
+        }
+        has_gained
+    }
+
+    /// The chain less a corner; none where that would turn a leg that must not turn.
+    fn without(&self, corner: usize) -> Option<Self> {
+        let is_fixed = self.first_is_fixed && corner == 1
+            || self.last_is_fixed && corner + 2 == self.points.len();
+        (!is_fixed).then(|| {
+            let mut chain = self.clone();
+            chain.points.remove(corner);
+            chain.fillets.remove(corner - 1);
+            chain.tightness_m.remove(corner);
+            chain
+        })
+    }
+
+    /// Where a corner might go: outward, inward, and along both legs.
+    fn moves(&self, corner: usize, step_m: f64) -> Vec<Point2> {
+        let at = self.points[corner];
+        let [back, on] = [corner - 1, corner].map(|leg| Point2::unit(self.heading_rad(leg)));
+        let mut directions = Vec::new();
+        let first_is_fixed = self.first_is_fixed && corner == 1;
+        let last_is_fixed = self.last_is_fixed && corner + 2 == self.points.len();
+        if !first_is_fixed && !last_is_fixed {
+            let out = back - on;
+            let out = if out.norm() > 1e-6 {
+                out * (1.0 / out.norm())
+            } else {
+                back.perpendicular()
+            };
+            directions.extend([out, -out]);
+        }
+        if !last_is_fixed {
+            directions.extend([back, -back]);
+        }
+        if !first_is_fixed {
+            directions.extend([on, -on]);
+        }
+        directions
+            .into_iter()
+            .map(|direction| at + direction * step_m)
+            .collect()
+    }
+
+    /// Takes a changed chain if the corners of a range, all that differ, become cheaper and its
+    /// body stays free.
+    fn take_if_cheaper(
+        &mut self,
+        task: &Task,
+        mut to: Self,
+        changed: RangeInclusive<usize>,
+    ) -> bool {
+        let corners =
+            |chain: &Self| (*changed.start()).max(1)..=(*changed.end()).min(chain.points.len() - 2);
+        let n_removed = self.points.len() - to.points.len();
+        let before =
+            *changed.start().max(&1)..=(changed.end() + n_removed).min(self.points.len() - 2);
+        let known = self.cost(task, before);
+        let legs = corners(&to).start() - 1..=*corners(&to).end();
+        // The widest arcs cost least: without them there is nothing to gain.
+        to.tightness_m[legs.clone()].fill(0.0);
+        let gains = |to: &Self| to.cost(task, corners(to)) < known - LEAST_GAIN_M;
+        let is_better = to.round(task, corners(&to), false)
+            && gains(&to)
+            && to.round(task, corners(&to), true)
+            && gains(&to)
+            && to.measure_legs(task, legs)
+            && gains(&to);
+        if is_better {
+            *self = to;
+        }
+        is_better
+    }
+
+    /// What some corners cost with the legs before, between and behind them.
+    fn cost(&self, task: &Task, corners: RangeInclusive<usize>) -> f64 {
+        let legs = corners.start().saturating_sub(1)..=(*corners.end()).max(corners.start() - 1);
+        let legs = legs
+            .map(|leg| self.length_m(leg) + self.tightness_m[leg])
+            .sum::<f64>();
+        legs + corners
+            .map(|corner| self.fillets[corner - 1].cost(task))
+            .sum::<f64>()
+    }
+
+    /// Gives some corners their widest arcs or, if `checked`, the widest that are free; whether
+    /// all have one.
+    fn round(&mut self, task: &Task, corners: RangeInclusive<usize>, checked: bool) -> bool {
+        let (first, last) = (*corners.start(), *corners.end());
+        for corner in corners {
+            let turn_rad = angle_difference(self.heading_rad(corner), self.heading_rad(corner - 1));
+            // Corners beyond the range keep their arcs; those in it share their legs.
+            let room = |leg: usize, other: usize| {
+                let length_m = self.length_m(leg);
+                if other == 0 || other == self.points.len() - 1 {
+                    length_m
+                } else if (first..=last).contains(&other) {
+                    0.5 * length_m
+                } else {
+                    length_m - self.fillets[other - 1].tangent_m
+                }
+            };
+            let room_m = room(corner - 1, corner - 1).min(room(corner, corner + 1));
+            let widest = (0..if checked { MAX_TIGHTER } else { 1 })
+                .map_while(|n| Fillet::new(task, turn_rad, room_m, n))
+                .find_map(|mut fillet| {
+                    if checked {
+                        fillet.tightness_m = self.arc_tightness_m(task, corner, &fillet)?;
+                    }
+                    Some(fillet)
+                });
+            let Some(fillet) = widest else {
+                return false;
+            };
+            self.fillets[corner - 1] = fillet;
+        }
+        true
+    }
+
+    fn arc_tightness_m(&self, task: &Task, corner: usize, fillet: &Fillet) -> Option<f64> {
+        let leg = corner - 1;
+        let begins = self.pose(leg, self.length_m(leg) - fillet.tangent_m);
+        task.tightness_m(begins, &[fillet.arc()])
+    }
+
+    /// Works out how near to obstacles some legs pass; whether all of them are free.
+    fn measure_legs(&mut self, task: &Task, mut legs: RangeInclusive<usize>) -> bool {
+        legs.all(|leg| {
+            let [from_m, to_m] = self.straight_m(leg);
+            let arc = Arc::new(0.0, to_m - from_m);
+            let tightness_m = task.tightness_m(self.pose(leg, from_m), &[arc]);
+            self.tightness_m[leg] = tightness_m.unwrap_or_default();
+            to_m >= from_m && tightness_m.is_some()
+        })
+    }
+
+    /// From where to where a leg is driven, metres from its first point.
+    fn straight_m(&self, leg: usize) -> [f64; 2] {
+        let tangent_m = |corner: usize| {
+            let fillet = corner.checked_sub(1).and_then(|i| self.fillets.get(i));
+            fillet.map_or(0.0, |fillet| fillet.tangent_m)
+        };
+        // Two arcs may share a leg to the last bit.
+        let ends_m = self.length_m(leg) - tangent_m(leg + 1);
+        [tangent_m(leg), ends_m.max(tangent_m(leg) - 1e-12)].map(|at_m| at_m.max(0.0))
+    }
+
+    fn length_m(&self, leg: usize) -> f64 {
+        self.points[leg].distance(self.points[leg + 1])
+    }
+
+    fn heading_rad(&self, leg: usize) -> f64 {
+        (self.points[leg + 1] - self.points[leg]).angle()
+    }
+
+    /// The pose on a leg, some metres from its first point.
+    pub(super) fn pose(&self, leg: usize, at_m: f64) -> Pose2 {
+        Pose2::at(self.points[leg], self.heading_rad(leg)).advance(0.0, at_m)
+    }
+
+    /// All straights and arcs in order.
+    pub(super) fn arcs(&self) -> Vec<Arc> {
+        let mut arcs = Vec::new();
+        for leg in 0..self.points.len() - 1 {
+            let [from_m, to_m] = self.straight_m(leg);
+            arcs.push(Arc::new(0.0, (to_m - from_m).max(0.0)));
+            arcs.extend(self.fillets.get(leg).map(Fillet::arc));
+        }
+        arcs
+    }
+
+    /// The corners with a turn.
+    pub(super) fn corners(&self) -> Vec<Rounded> {
+        let corners = self.points[1..].iter().zip(&self.fillets);
+        let rounded = corners.filter_map(|(&place, fillet)| {
+            let turning = fillet.turning()?;
+            Some(Rounded { place, turning })
+        });
+        rounded.collect()
+    }
+}
