@@ -3,8 +3,8 @@
 use super::ant::Walker;
 use super::config::ColonyConfig;
 use super::generation::Generation;
+use super::ground::Ground;
 use super::node::Node;
-use super::problem::Ground;
 use crate::numeric::Seed;
 use std::ops::Range;
 use std::sync::Arc;
