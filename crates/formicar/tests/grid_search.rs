@@ -332,3 +332,39 @@ fn width_cells(lethal: &BitGrid, cell: Cell) -> usize {
     };
     (1 + run(1, 0) + run(-1, 0)).min(1 + run(0, 1) + run(0, -1))
 }
+
+proptest! {
+    #[test]
+    fn a_corridor_holds_the_cells_of_short_ways_at_their_distance(
+        cells in prop::collection::vec(any::<prop::sample::Index>(), 0..90),
+        ends in prop::array::uniform2(any::<prop::sample::Index>()),
+        ratio in 1.0..2.0,
+    ) {
+        let (n_cols, n_rows) = (20, 15);
+        let place = |index: &prop::sample::Index| {
+            let i = index.index(n_cols * n_rows);
+            Cell::new((i % n_cols) as u32, (i / n_cols) as u32)
+        };
+        let [start, goal] = [place(&ends[0]), place(&ends[1])];
+        let mut blocked = BitGrid::new(n_cols, n_rows);
+        blocked.extend(cells.iter().map(place).filter(|&cell| cell != start && cell != goal));
+        for rule in DiagonalRule::ALL {
+            let moves = MoveMasks::new(&blocked, rule);
+            let [to_goal, to_start] = [goal, start].map(|end| goal_field(&moves, &[end]));
+            let mut nobody = ();
+            let mut limits = Limits::new(&mut nobody, None, None);
+            let corridor = to_goal.corridor(&moves, start, ratio, &mut limits);
+            let Some(least) = to_goal.cost(start) else {
+                prop_assert_eq!(corridor.unwrap_err().status(), Some(Status::NoPath));
+                continue;
+            };
+            let (corridor, most) = (corridor.unwrap(), (f64::from(least) * ratio) as u32);
+            for i in 0..n_cols * n_rows {
+                let cell = moves.cell(i);
+                let sum = to_goal.cost(cell).zip(to_start.cost(cell)).map(|(a, b)| a + b);
+                let expected = to_start.cost(cell).filter(|_| sum.is_some_and(|sum| sum <= most));
+                prop_assert_eq!(corridor.cost(cell), expected, "{:?}", cell);
+            }
+        }
+    }
+}

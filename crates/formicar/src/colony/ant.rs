@@ -4,8 +4,8 @@ use super::config::ColonyConfig;
 use super::crew::Walk;
 use super::footmarks::{Footmarks, Place};
 use super::generation::Generation;
+use super::ground::Ground;
 use super::node::Node;
-use super::problem::Ground;
 use crate::numeric::{RandomStream, Seed};
 use std::ops::Range;
 
@@ -31,11 +31,10 @@ impl<'a> Walker<'a> {
 
     /// Walks until the goal or until no step is left; whether it is the goal.
     fn walk(&mut self, nodes: &[Node], stream: &mut RandomStream, steps: &mut Vec<u8>) -> bool {
-        let (goal, offsets) = (self.ground.goal, &self.ground.offsets);
         let (first_step, mut n_retreats) = (steps.len(), 0);
-        let mut at = self.ground.start;
+        let (mut at, goal) = self.ground.ends;
         self.visit(nodes[at].place);
-        while at != goal {
+        while Some(at) != goal {
             let node = &nodes[at];
             let open = node.allowed & !self.marks.around(node.place);
             let step = if open != 0 {
@@ -43,7 +42,7 @@ impl<'a> Walker<'a> {
                 let class = if preferred != 0 { preferred } else { open };
                 let step = node.draw(class, (stream.next_u64() >> 32) as u32);
                 steps.push(step as u8);
-                at = at.wrapping_add_signed(offsets[step]);
+                at = node.next(at, step);
                 self.visit(nodes[at].place);
                 continue;
             } else if n_retreats < self.max_retreats && steps.len() > first_step {
@@ -52,7 +51,7 @@ impl<'a> Walker<'a> {
             } else {
                 return false;
             };
-            at = at.wrapping_add_signed(-offsets[usize::from(step)]);
+            at = node.next(at, (usize::from(step) + 4) % 8);
         }
         true
     }

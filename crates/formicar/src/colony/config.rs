@@ -1,5 +1,6 @@
 //! Every parameter of a colony.
 
+use super::corridor::Corridor;
 use super::dead_end::DeadEnd;
 use super::deposit::Deposit;
 use super::evaporation::Evaporation;
@@ -32,6 +33,8 @@ pub struct ColonyConfig {
     pub diagonal_rule: DiagonalRule,
     /// What an ant does beside the goal.
     pub adjacent_goal: AdjacentGoal,
+    /// On which cells ants may step.
+    pub corridor: Corridor,
     /// What pheromone lies on.
     pub trails: TrailLayout,
     /// What a path costs.
@@ -140,6 +143,7 @@ impl ColonyConfig {
             1.0..=1e6,
         )?;
         check_range("colony.alpha", self.alpha, 0.0..=10.0)?;
+        self.corridor.check()?;
         self.cost.check()?;
         self.visibility.check()?;
         self.guidance.check()?;

@@ -4,11 +4,12 @@ use super::ant::Walker;
 use super::config::{ColonyConfig, ColonyError};
 use super::crew::{Crew, with_crew};
 use super::generation::{Generation, Way};
+use super::ground::Ground;
 use super::history::{ColonyRun, History, Stop};
-use super::initial::PheromoneUnit;
+use super::initial::{Laid, PheromoneUnit};
 use super::limits::Bounds;
 use super::node::Node;
-use super::problem::{ColonyProblem, Ground};
+use super::problem::ColonyProblem;
 use super::trails::Trails;
 use crate::map::STEPS;
 use crate::numeric::Seed;
@@ -32,14 +33,14 @@ pub enum RunError {
     /// A vehicle that cannot have the margin asked for.
     #[error(transparent)]
     Vehicle(#[from] VehicleError),
-    /// A map beyond [`ColonyProblem::MAX_CELLS`].
+    /// More cells to reach than [`ColonyProblem::MAX_CELLS`].
     #[error(
-        "a colony works on at most {max} cells, the map has {n_cells}; hint: use a coarser resolution"
+        "a colony works on at most {max} cells, of the map's {n_cells} its ants can reach more; hint: colony.corridor.rule=\"ratio\", or a coarser resolution"
     )]
     TooLarge {
         /// Cells of the map.
         n_cells: usize,
-        /// Cells allowed.
+        /// Cells that ants may reach.
         max: usize,
     },
 }
@@ -51,7 +52,7 @@ pub enum RunError {
 /// An iteration takes time in proportion to the cells that can be reached and to the steps walked.
 ///
 /// # Errors
-/// Parameters out of range, a start or goal off the map or blocked, a map too large.
+/// Parameters out of range, a start or goal off the map or blocked, too many cells to reach.
 pub fn run(
     problem: &ColonyProblem,
     config: &ColonyConfig,
@@ -60,15 +61,11 @@ pub fn run(
     limits: &mut Limits,
 ) -> Result<ColonyRun, RunError> {
     config.check()?;
-    let n_cells = problem.moves().as_slice().len();
-    if n_cells > ColonyProblem::MAX_CELLS {
-        let max = ColonyProblem::MAX_CELLS;
-        return Err(RunError::TooLarge { n_cells, max });
-    }
     problem.check_ends()?;
     let (ground, nodes) = Ground::new(problem, config, limits)?;
-    let mut colony = Colony::new(problem, config, &ground, nodes);
-    let stop = if ground.has_way {
+    let initial = config.initial.lay(problem, &ground.cells, limits)?;
+    let mut colony = Colony::new(problem, config, (&ground, nodes), initial);
+    let stop = if ground.has_way() {
         let walker = || Walker::new(&ground, config, seed);
         with_crew(walker, config.n_ants, n_threads, |crew| {
             colony.run(crew, limits)
@@ -115,21 +112,15 @@ impl<'a> Colony<'a> {
     fn new(
         problem: &'a ColonyProblem,
         config: &'a ColonyConfig,
-        ground: &'a Ground,
-        nodes: Vec<Node>,
+        (ground, nodes): (&'a Ground, Vec<Node>),
+        mut initial: Laid,
     ) -> Self {
-        let ends = [problem.start(), problem.goal()];
-        let size = (ground.n_cols, ground.n_rows);
-        let mut initial = config.initial.values(size, ends);
         if config.initial.unit() == PheromoneUnit::Deposit {
-            let unit = config.deposit.expected(config.n_ants) / straight_cost(problem, config);
-            for tau in &mut initial {
-                *tau *= unit;
-            }
+            initial.scale(config.deposit.expected(config.n_ants) / straight_cost(problem, config));
         }
         Self {
-            bounds: Bounds::new(&initial, ground, &nodes),
-            trails: Trails::new(config.trails, &initial, ground, &nodes),
+            bounds: Bounds::new(initial.least, &nodes),
+            trails: Trails::new(config.trails, &initial.values, ground, &nodes),
             nodes: Arc::new(nodes),
             memory: Memory::default(),
             history: History::default(),

@@ -2,14 +2,15 @@
 //!
 //! Each iteration the ants walk from start to goal on frozen pheromone, each by random numbers of
 //! its own; then pheromone evaporates, ants deposit, limits are kept. What varies between methods
-//! is a rule in a slot: [`heuristic`], [`initial`], [`transition`], [`dead_end`],
-//! [`evaporation`], [`deposit`], [`limits`]. A method is a [`ColonyConfig`], and those of papers
+//! is a rule in a slot: [`corridor`], [`heuristic`], [`initial`], [`transition`],
+//! [`dead_end`], [`evaporation`], [`deposit`], [`limits`]. A method is a [`ColonyConfig`], and those of papers
 //! are in [`presets`].
 
 mod adjacency;
 mod ant;
 pub mod chord;
 mod config;
+pub mod corridor;
 mod crew;
 pub mod dead_end;
 pub mod deposit;
@@ -17,6 +18,7 @@ mod engine;
 pub mod evaporation;
 mod footmarks;
 mod generation;
+mod ground;
 pub mod heuristic;
 mod history;
 pub mod initial;

@@ -8,6 +8,9 @@ use super::footmarks::Place;
 pub(super) struct Node {
     /// Weights of the steps, those of allowed ones at least 1 and below 2^28.
     weights: [u32; 8],
+    /// Numbers of the nodes in the rows above and below, in the order of the steps to them: those
+    /// beside a node have the numbers before and after its own.
+    across: [u32; 6],
     pub(super) place: Place,
     /// Allowed steps, a bit each.
     pub(super) allowed: u8,
@@ -21,14 +24,50 @@ const MAX_WEIGHT: f32 = ((1 << 28) - 1) as f32;
 /// Products below this are weighed coarsely, as what they are scaled with must stay finite.
 const LEAST_SCALE: f32 = 1e-30;
 
+/// The whole part of a number from 0 to [`MAX_WEIGHT`]; anything for what is none.
+///
+/// As a cast would have it, eight at a time: half less a bit is taken off, so that rounding to the
+/// last place of a large number cuts off, and of the sum the lower bits are the whole part.
+#[inline]
+fn whole(number: f32) -> u32 {
+    const HALF: f64 = 0.5 - 1.0 / (1 << 25) as f64;
+    const LARGE: f64 = (3_u64 << 51) as f64;
+    ((f64::from(number) - HALF) + LARGE).to_bits() as u32
+}
+
 impl Node {
     /// A node without weights.
     pub(super) fn new(place: Place, allowed: u8, first_class: u8) -> Self {
         Self {
             weights: [0; 8],
+            across: [0; 6],
             place,
             allowed,
             first_class,
+        }
+    }
+
+    /// Sets the numbers of the three nodes in the row below and of those above, from the west.
+    pub(super) fn link(&mut self, below: [u32; 3], above: [u32; 3]) {
+        self.across = [above[2], above[1], above[0], below[0], below[1], below[2]];
+    }
+
+    /// The number of the node that a step leads to from this one, whose number is `at`. There must
+    /// be one.
+    #[inline]
+    pub(super) fn next(&self, at: usize, step: usize) -> usize {
+        // Of the eight steps the first leads east, the fifth west.
+        const PLACES: [usize; 8] = [0, 0, 1, 2, 0, 3, 4, 5];
+        let along = if step == 0 {
+            at + 1
+        } else {
+            at.wrapping_sub(1)
+        };
+        let across = self.across[PLACES[step & 7]] as usize;
+        if step.is_multiple_of(4) {
+            along
+        } else {
+            across
         }
     }
 
@@ -39,7 +78,7 @@ impl Node {
     pub(super) fn set_weights(&mut self, products: [f32; 8]) {
         let largest = products.iter().copied().fold(LEAST_SCALE, f32::max);
         let scale = MAX_WEIGHT / largest;
-        self.weights = products.map(|product| (product * scale) as u32 | 1);
+        self.weights = products.map(|product| whole(product * scale) | 1);
     }
 
     /// Draws one of the steps in a set that is not empty, by weight.
@@ -66,6 +105,25 @@ impl Node {
 mod tests {
     use super::*;
     use crate::numeric::Seed;
+
+    #[test]
+    fn is_one_cache_line() {
+        assert_eq!(size_of::<Node>(), 64);
+    }
+
+    #[test]
+    fn the_whole_part_is_that_of_a_cast() {
+        let mut stream = Seed(1).stream([0, 0]);
+        let random = (0..20_000).map(|_| stream.unit().powi(9) as f32 * MAX_WEIGHT);
+        let near = [1_u32, 2, 3, 4_194_303, 8_388_607, 8_388_609, 16_777_215].map(|n| n as f32);
+        let around = near
+            .into_iter()
+            .flat_map(|n| [n.next_down(), n, n.next_up()]);
+        let ends = [0.0, 1e-30, 0.5, MAX_WEIGHT];
+        for number in random.chain(around).chain(ends) {
+            assert_eq!(whole(number), number as u32, "{number}");
+        }
+    }
 
     #[test]
     fn draws_by_weight_and_only_from_the_set() {

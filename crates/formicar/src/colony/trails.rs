@@ -1,22 +1,28 @@
 //! Pheromone, on cells or on steps from cell to cell.
 
 use super::config::TrailLayout;
+use super::ground::{Ground, steps_in};
 use super::node::Node;
-use super::problem::{Ground, steps_in};
 use crate::progress::{Pheromone, pheromone_by_cell};
+use std::ops::Range;
 
 /// Pheromone of all cells, row by row, or of their steps, eight to a cell; not a number where no
 /// ant can go.
 pub(super) struct Trails {
     layout: TrailLayout,
     values: Vec<f32>,
+    /// Places of the values that ants can change.
+    spans: Vec<Range<usize>>,
+    /// The least and the most of them.
+    range: (f32, f32),
 }
 
 /// Pheromone counts as gone below this; a floor keeps arithmetic off denormal numbers.
 const NOTHING: f32 = 1e-30;
 
 impl Trails {
-    /// Trails with an initial value by cell; a step has that of the cell that it leads to.
+    /// Trails with an initial value by number of the cell; a step has that of the cell that it
+    /// leads to.
     pub(super) fn new(
         layout: TrailLayout,
         initial: &[f64],
@@ -27,43 +33,62 @@ impl Trails {
             TrailLayout::Cells => 1,
             TrailLayout::Edges => 8,
         };
-        let mut values = vec![f32::NAN; initial.len() * per_cell];
-        for &cell in &ground.cells {
+        let mut values = vec![f32::NAN; ground.n_cols * ground.n_rows * per_cell];
+        for (at, &cell) in ground.cells.iter().enumerate() {
             let cell = cell as usize;
             match layout {
-                TrailLayout::Cells => values[cell] = initial[cell] as f32,
+                TrailLayout::Cells => values[cell] = initial[at] as f32,
                 TrailLayout::Edges => {
-                    for step in steps_in(nodes[cell].allowed) {
-                        let to = cell.wrapping_add_signed(ground.offsets[step]);
-                        values[8 * cell + step] = initial[to] as f32;
+                    for step in steps_in(nodes[at].allowed) {
+                        values[8 * cell + step] = initial[nodes[at].next(at, step)] as f32;
                     }
                 }
             }
         }
-        Self { layout, values }
+        let spans = ground.spans.iter();
+        let mut trails = Self {
+            layout,
+            values,
+            spans: spans
+                .map(|span| per_cell * span.start..per_cell * span.end)
+                .collect(),
+            range: (0.0, 0.0),
+        };
+        trails.update(|tau| tau);
+        trails
+    }
+
+    /// Changes all values, and finds the least and the most of the new ones.
+    fn update(&mut self, change: impl Fn(f32) -> f32) {
+        // Either is the other operand where one is not a number.
+        let (mut low, mut high) = (f32::INFINITY, f32::NEG_INFINITY);
+        for span in &self.spans {
+            for tau in &mut self.values[span.clone()] {
+                *tau = change(*tau);
+                (low, high) = (low.min(*tau), high.max(*tau));
+            }
+        }
+        self.range = (low, high);
     }
 
     /// Sets the weights of all nodes to pheromone to the power of `alpha`, times desire.
     pub(super) fn weigh(&self, alpha: f64, ground: &Ground, nodes: &mut [Node]) {
         // Only proportions matter: relative to the strongest no power overflows.
-        let (alpha, unit) = (alpha as f32, 1.0 / self.range().1);
-        for &cell in &ground.cells {
+        let (alpha, unit) = (alpha as f32, 1.0 / self.range.1);
+        for ((node, desire), &cell) in nodes.iter_mut().zip(&ground.desire).zip(&ground.cells) {
             let cell = cell as usize;
-            let node = &mut nodes[cell];
-            let mut products = ground.desire[cell];
-            for step in steps_in(node.allowed) {
-                let tau = match self.layout {
-                    TrailLayout::Cells => {
-                        self.values[cell.wrapping_add_signed(ground.offsets[step])]
-                    }
-                    TrailLayout::Edges => self.values[8 * cell + step],
-                };
-                let share = tau * unit;
-                products[step] *= if alpha == 1.0 {
-                    share
-                } else {
-                    share.powf(alpha)
-                };
+            // Where no step leads there is no desire, or one that nobody draws.
+            let place = |step: usize| match self.layout {
+                TrailLayout::Cells => cell.wrapping_add_signed(ground.offsets[step]),
+                TrailLayout::Edges => 8 * cell + step,
+            };
+            let tau = |step: usize| self.values.get(place(step)).copied().unwrap_or_default();
+            let mut products: [f32; 8] = std::array::from_fn(|step| tau(step) * unit);
+            if alpha != 1.0 {
+                products = products.map(|share| share.powf(alpha));
+            }
+            for (product, desire) in products.iter_mut().zip(desire) {
+                *product *= desire;
             }
             node.set_weights(products);
         }
@@ -72,8 +97,10 @@ impl Trails {
     /// Leaves the rest of all pheromone after a share `rho` has evaporated.
     pub(super) fn evaporate(&mut self, rho: f64) {
         let kept = (1.0 - rho) as f32;
-        for tau in &mut self.values {
-            *tau *= kept;
+        for span in &self.spans {
+            for tau in &mut self.values[span.clone()] {
+                *tau *= kept;
+            }
         }
     }
 
@@ -102,18 +129,12 @@ impl Trails {
     pub(super) fn clamp(&mut self, low: f64, high: f64) {
         let low = (low as f32).clamp(NOTHING, f32::MAX);
         let high = (high as f32).clamp(low, f32::MAX);
-        for tau in &mut self.values {
-            *tau = tau.clamp(low, high);
-        }
+        self.update(|tau| tau.clamp(low, high));
     }
 
-    /// The least and the most pheromone where ants can go.
+    /// The least and the most pheromone where ants can go, after the last [`Self::clamp`].
     pub(super) fn range(&self) -> (f32, f32) {
-        // Either is the other operand where one is not a number.
-        let range = (f32::INFINITY, f32::NEG_INFINITY);
-        self.values
-            .iter()
-            .fold(range, |(low, high), &tau| (low.min(tau), high.max(tau)))
+        self.range
     }
 
     pub(super) fn view(&self) -> Pheromone<'_> {

@@ -1,6 +1,6 @@
 //! Short chains of lines and arcs, as Dubins and Reeds-Shepp curves are.
 
-use super::Pose2;
+use super::{Point2, Pose2};
 use std::iter;
 
 /// A line or arc by its curvature and its signed length.
@@ -29,6 +29,20 @@ impl Arc {
     /// The pose at the arc's end.
     pub fn end_from(self, start: Pose2) -> Pose2 {
         start.advance(self.curvature_per_m, self.signed_length_m)
+    }
+
+    /// The pose on an arc from `start` that is nearest to a point, for less than half a turn.
+    pub fn nearest_from(self, start: Pose2, point: Point2) -> Pose2 {
+        let local = start.relative(Pose2::at(point, 0.0)).position();
+        let bend = self.curvature_per_m;
+        let along_m = if bend.abs() < 1e-9 {
+            local.x
+        } else {
+            // The center lies at (0, 1 / curvature).
+            (local.x * bend).atan2(1.0 - local.y * bend) / bend
+        };
+        let end_m = self.signed_length_m;
+        start.advance(bend, along_m.clamp(end_m.min(0.0), end_m.max(0.0)))
     }
 
     /// Whether driving the other after this one is the same motion going on.

@@ -1,6 +1,8 @@
-//! Points, poses, angles, polygons and curves of bounded curvature in the plane.
+//! Points, poses, angles, polygons, curves of bounded curvature, splines and biarcs in the plane.
 
 mod angle;
+mod b_spline;
+mod biarc;
 mod curve;
 pub mod dubins;
 mod point;
@@ -10,6 +12,8 @@ pub mod reeds_shepp;
 mod turning_circles;
 
 pub use angle::{angle_difference, wrap_angle};
+pub use b_spline::BSpline;
+pub use biarc::flattest_biarc;
 pub use curve::{Arc, Curve};
 pub use point::Point2;
 pub use polygon::{ConvexPolygon, PolygonError};

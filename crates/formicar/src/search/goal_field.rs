@@ -34,10 +34,45 @@ impl GoalField {
         goals: &[Cell],
         limits: &mut Limits,
     ) -> Result<Self, SearchError> {
+        Self::spread(moves, goals, |_, _| true, limits)
+    }
+
+    /// The way to a start from the cells of a corridor: those that lie on some way from the start
+    /// to this field's goals which costs at most `ratio`, at least 1, times the least. All other
+    /// cells count as not reached.
+    ///
+    /// `moves` are those that this field was made with. Every shortest way from the start to a cell
+    /// of the corridor lies in it, so that the front need not leave it: time is in proportion to
+    /// the corridor, but for clearing four bytes per cell. A step of the limits is a cell expanded.
+    ///
+    /// # Errors
+    /// A start off the map or blocked, or without a way to a goal; budget, deadline or cancel.
+    pub fn corridor(
+        &self,
+        moves: &MoveMasks,
+        start: Cell,
+        ratio: f64,
+        limits: &mut Limits,
+    ) -> Result<Self, SearchError> {
+        check_end(moves, "start", start)?;
+        let least = self.cost(start).ok_or(Status::NoPath)?;
+        let most = (f64::from(least) * ratio) as u32;
+        let keeps = |to: usize, cost: u32| cost.saturating_add(self.costs[to]) <= most;
+        Self::spread(moves, &[start], keeps, limits)
+    }
+
+    /// Spreads from goals over the cells that `keeps` wants, given their place and their cost.
+    fn spread(
+        moves: &MoveMasks,
+        goals: &[Cell],
+        keeps: impl Fn(usize, u32) -> bool,
+        limits: &mut Limits,
+    ) -> Result<Self, SearchError> {
         let mut spread = Spread {
             costs: vec![UNREACHED; moves.as_slice().len()],
             masks: moves.as_slice(),
             offsets: moves.offsets(),
+            keeps,
         };
         for &goal in goals {
             check_end(moves, "goal", goal)?;
@@ -172,13 +207,14 @@ impl List {
 }
 
 /// The front as it moves outward.
-struct Spread<'a> {
+struct Spread<'a, F> {
     costs: Vec<u32>,
     masks: &'a [u8],
     offsets: [isize; 8],
+    keeps: F,
 }
 
-impl Spread<'_> {
+impl<F: Fn(usize, u32) -> bool> Spread<'_, F> {
     /// Expands a level whose costs begin at `floor` into the next two.
     fn advance(
         &mut self,
@@ -246,8 +282,9 @@ impl Spread<'_> {
     fn offer(&mut self, index: usize, step: usize, cost: u32, level: &mut Level) {
         let to = index.wrapping_add_signed(self.offsets[step]);
         let known = self.costs[to];
-        self.costs[to] = known.min(cost);
-        level.lists[step].push_if(cost < known, to);
+        let is_wanted = (cost < known) & (self.keeps)(to, cost);
+        self.costs[to] = if is_wanted { cost } else { known };
+        level.lists[step].push_if(is_wanted, to);
     }
 }
 

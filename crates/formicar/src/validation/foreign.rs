@@ -27,8 +27,7 @@
 //! as many samples as it passes within that rounding, half a unit of the last decimal.
 
 use super::tangents::{run_end, tangents};
-use crate::geometry::{Point2, Pose2, angle_difference, wrap_angle};
-use crate::numeric::golden_section;
+use crate::geometry::{Arc, Point2, Pose2, angle_difference, flattest_biarc, wrap_angle};
 use crate::path::{CurvePath, CurveSegment, Direction};
 use std::f64::consts::{PI, SQRT_2};
 
@@ -167,74 +166,11 @@ fn between(from: Pose2, to: Pose2, direction: Direction) -> Vec<CurveSegment> {
         start,
         // The heading turns by direction * curvature * length, with the direction of motion.
         curvature_per_m: arc.curvature_per_m * direction.sign(),
-        length_m: arc.length_m,
+        length_m: arc.length_m(),
         direction,
     };
     let one = segment(from, first);
     vec![one, segment(one.end(), second)]
-}
-
-/// A piece of a biarc in the sense of motion.
-#[derive(Clone, Copy, Debug)]
-struct Arc {
-    curvature_per_m: f64,
-    length_m: f64,
-}
-
-impl Arc {
-    /// The arc over a chord that leaves it by an angle (counter-clockwise from tangent to chord).
-    fn over(chord_m: f64, angle: f64) -> Self {
-        let sinc = if angle.abs() < 1e-6 {
-            1.0 - angle * angle / 6.0
-        } else {
-            angle.sin() / angle
-        };
-        Self {
-            curvature_per_m: 2.0 * angle.sin() / chord_m,
-            length_m: chord_m / sinc,
-        }
-    }
-}
-
-/// The biarc over `step` between unit tangents whose larger curvature is least.
-fn flattest_biarc(step: Point2, [t0, t1]: [Point2; 2]) -> Option<[Arc; 2]> {
-    let (ahead0, ahead1) = (step.dot(t0), step.dot(t1));
-    if ahead0 <= 0.0 || ahead1 <= 0.0 {
-        return None;
-    }
-    // The control polygon p0, p0 + d0 t0, p1 - d1 t1, p1 has a middle side of d0 + d1, so that
-    // (step . step) / 2 = d0 (step . t0) + d1 (step . t1) + d0 d1 (1 - t0 . t1).
-    let half_square = 0.5 * step.dot(step);
-    let biarc = |share: f64| {
-        let d0 = share * half_square / ahead0;
-        let d1 = (half_square - d0 * ahead0) / (ahead1 + d0 * (1.0 - t0.dot(t1)));
-        let joint = (t0 * d0) + (step - t0 * d0 - t1 * d1) * (d0 / (d0 + d1));
-        let rest = step - joint;
-        let first = Arc::over(joint.norm(), t0.cross(joint).atan2(t0.dot(joint)));
-        let second = Arc::over(rest.norm(), rest.cross(t1).atan2(rest.dot(t1)));
-        [first, second]
-    };
-    let bend = |share| {
-        let [first, second]: [Arc; 2] = biarc(share);
-        first
-            .curvature_per_m
-            .abs()
-            .max(second.curvature_per_m.abs())
-    };
-    Some(biarc(least(bend)))
-}
-
-/// Where in (0, 1) a function is least: the best of a grid, then golden sections around it.
-fn least(value: impl Fn(f64) -> f64) -> f64 {
-    const N_GRID: u32 = 16;
-    const N_SECTIONS: u32 = 40;
-    let at = |i: u32| f64::from(i) / f64::from(N_GRID);
-    let best = (1..N_GRID)
-        .min_by(|&a, &b| value(at(a)).total_cmp(&value(at(b))))
-        .unwrap_or(N_GRID / 2);
-    // An end of the interval is a biarc without its first or second arc.
-    let (low, high) = (at(best - 1).max(1e-6), at(best + 1).min(1.0 - 1e-6));
-    golden_section(value, [low, high], N_SECTIONS)
 }
 
 /// How far a curve may pass by a sample: both coordinates are rounded, at the sample and at the
@@ -263,16 +199,8 @@ fn passes(curve: &[CurveSegment], poses: &[Pose2], rounding_m: f64) -> bool {
 
 /// The pose on a segment that is nearest to a point.
 fn nearest_on(segment: &CurveSegment, point: Point2) -> Pose2 {
-    let local = segment.start.relative(Pose2::at(point, 0.0)).position();
-    let signed_curvature = segment.curvature_per_m;
-    let driven = if signed_curvature.abs() < 1e-9 {
-        local.x * segment.direction.sign()
-    } else {
-        // The centre lies at (0, 1 / curvature); the angle about it grows with the motion.
-        let about = (local.x * signed_curvature).atan2(1.0 - local.y * signed_curvature);
-        about / signed_curvature * segment.direction.sign()
-    };
-    segment.pose_at(driven.clamp(0.0, segment.length_m))
+    let signed_length_m = segment.direction.sign() * segment.length_m;
+    Arc::new(segment.curvature_per_m, signed_length_m).nearest_from(segment.start, point)
 }
 
 #[cfg(test)]

@@ -6,12 +6,12 @@ use super::deposit::SpreadDeposit;
 use super::distance::DistanceTerm;
 use super::limit::SteeringLimit;
 use super::safety::Safety;
-use super::seeding::PathSeed;
 use super::transition::ChordTransition;
 use crate::colony::config::{ColonyError, Stopping};
 use crate::colony::dead_end::DeadEnd;
 use crate::colony::evaporation::Evaporation;
 use crate::colony::heuristic::Guidance;
+use crate::colony::initial::AstarSeed;
 use crate::numeric::{OutOfRange, check_range};
 use crate::objective::SteeringCost;
 use schemars::JsonSchema;
@@ -56,8 +56,9 @@ pub struct ChordConfig {
     /// What an ant does where no step is left. One that retreats goes back some steps, more of them
     /// each time, and draws anew.
     pub dead_end: DeadEnd,
-    /// Pheromone before the first generation.
-    pub initial: PathSeed,
+    /// Pheromone before the first generation. The unit of a deposit is what the shortest path
+    /// itself would get.
+    pub initial: AstarSeed,
     /// How pheromone evaporates.
     pub evaporation: Evaporation,
     /// Who deposits pheromone, and how much.
@@ -122,7 +123,7 @@ impl ChordConfig {
         self.distance.check()?;
         self.limit.check()?;
         self.transition.check()?;
-        self.initial.check()?;
+        self.initial.check().map_err(in_section)?;
         self.evaporation
             .check(self.n_iterations)
             .map_err(|error| match error {

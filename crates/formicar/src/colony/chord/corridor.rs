@@ -1,8 +1,9 @@
 //! The cells between which ants choose, numbered without gaps.
 
-use crate::map::{BitGrid, Cell};
+use crate::map::{BitGrid, Cell, MoveMasks};
 use crate::numeric::{OutOfRange, check_range};
-use crate::search::GoalField;
+use crate::progress::Limits;
+use crate::search::{GoalField, SearchError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -46,12 +47,28 @@ impl Corridor {
         check_range("chords.corridor.step_detour_cells", detour, 0.0..=1000.0)
     }
 
-    /// The longest way through a cell and the most that a step may lengthen the way, in cells.
-    pub(super) fn limits(&self, shortest_cells: f64) -> [f64; 2] {
+    /// The most that a step may lengthen the way, cells.
+    pub(super) fn step_detour(&self) -> f64 {
         match self {
-            // Some cells more, so that short ways have room too.
-            Self::NearShortest(rule) => [rule.ratio * shortest_cells + 4.0, rule.step_detour_cells],
-            Self::None => [f64::INFINITY; 2],
+            Self::NearShortest(rule) => rule.step_detour_cells,
+            Self::None => f64::INFINITY,
+        }
+    }
+
+    /// The cells of the corridor on the way from a start to the goals of a field, which it has.
+    pub(super) fn cells(
+        &self,
+        moves: &MoveMasks,
+        to_goal: &GoalField,
+        start: Cell,
+        limits: &mut Limits,
+    ) -> Result<Numbered, SearchError> {
+        match self {
+            Self::NearShortest(rule) => {
+                let near = to_goal.corridor(moves, start, rule.ratio, limits)?;
+                Ok(Numbered::reached(near.costs(), moves.n_cols()))
+            }
+            Self::None => Ok(Numbered::reached(to_goal.costs(), moves.n_cols())),
         }
     }
 }
@@ -80,22 +97,13 @@ impl Numbered {
         }
     }
 
-    /// The cells from which the goal is reached, on ways of at most a length where one is given.
-    pub(super) fn between([from, to]: [&GoalField; 2], n_cols: usize, longest: f64) -> Self {
-        let n_rows = to.costs().len() / n_cols.max(1);
-        let mut cells = BitGrid::new(n_cols, n_rows);
-        let limit = longest * f64::from(crate::search::STRAIGHT_COST);
-        for row in 0..n_rows {
-            let costs = row * n_cols..(row + 1) * n_cols;
-            let (from, to) = (&from.costs()[costs.clone()], &to.costs()[costs]);
-            for (w, word) in cells.row_mut(row).iter_mut().enumerate() {
-                let columns = 64 * w..n_cols.min(64 * (w + 1));
-                let both = from[columns.clone()].iter().zip(&to[columns]);
-                *word = both.enumerate().fold(0, |word, (bit, (&a, &b))| {
-                    let is_near =
-                        a < u32::MAX && b < u32::MAX && f64::from(a) + f64::from(b) <= limit;
-                    word | u64::from(is_near) << bit
-                });
+    /// The cells that have a cost.
+    fn reached(costs: &[u32], n_cols: usize) -> Self {
+        let mut cells = BitGrid::new(n_cols, costs.len() / n_cols.max(1));
+        for (row, costs) in costs.chunks_exact(n_cols.max(1)).enumerate() {
+            for (word, costs) in cells.row_mut(row).iter_mut().zip(costs.chunks(64)) {
+                let bits = costs.iter().enumerate();
+                *word = bits.fold(0, |word, (i, &c)| word | u64::from(c != u32::MAX) << i);
             }
         }
         Self::new(cells)

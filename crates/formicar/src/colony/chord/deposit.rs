@@ -64,6 +64,11 @@ impl SpreadDeposit {
         check_range("chords.deposit.pheromone", self.pheromone, 1e-6..=1e6)
     }
 
+    /// What the reference path itself would get.
+    pub(super) fn unit(&self) -> f64 {
+        self.pheromone * (self.spread_weight + self.length_weight)
+    }
+
     /// The ants that deposit, in their order.
     pub(super) fn depositors(&self, generation: &ChordGeneration) -> Vec<usize> {
         match self.by {

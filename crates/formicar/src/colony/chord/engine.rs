@@ -8,6 +8,7 @@ use super::problem::ChordProblem;
 use crate::colony::crew::{Crew, with_crew};
 use crate::colony::engine::RunError;
 use crate::colony::history::{ColonyRun, History, Stop};
+use crate::colony::initial::PheromoneUnit;
 use crate::map::Cell;
 use crate::numeric::Seed;
 use crate::objective::PolylineCost;
@@ -91,16 +92,15 @@ struct Colony<'a> {
 
 impl<'a> Colony<'a> {
     fn new(ground: &'a Ground<'a>) -> Self {
-        let (initial, cells) = (&ground.config.initial, &ground.cells);
-        let mut tau = vec![initial.tau as f32; cells.len()];
-        for number in ground
-            .shortest
-            .cells
-            .iter()
-            .filter_map(|&c| cells.number(c))
-        {
-            tau[number] = (initial.tau * initial.factor) as f32;
-        }
+        let (config, cells) = (ground.config, &ground.cells);
+        let unit = match config.initial.unit {
+            PheromoneUnit::Absolute => 1.0,
+            PheromoneUnit::Deposit => config.deposit.unit(),
+        };
+        let path = ground.shortest.cells.iter();
+        let path = path.filter_map(|&cell| cells.number(cell));
+        let tau = config.initial.values(cells.len(), path).into_iter();
+        let tau = tau.map(|tau| (unit * tau) as f32).collect();
         let n_cols = ground.problem.moves.n_cols() as u32;
         Self {
             shared: Arc::new(Shared {

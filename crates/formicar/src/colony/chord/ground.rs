@@ -64,15 +64,13 @@ impl<'a> Ground<'a> {
         let (start, goal) = (problem.start_cell(), problem.goal);
         check_end(problem.moves, "start", start)?;
         check_end(problem.moves, "goal", goal)?;
-        let mut field = |end| GoalField::new(problem.moves, &[end], &mut limits.without_budget());
-        let to_goal = field(goal)?;
+        let moves = problem.moves;
+        let mut limits = limits.without_budget();
+        let to_goal = GoalField::new(moves, &[goal], &mut limits)?;
         let Some(shortest_cells) = to_goal.distance_cells(start) else {
             return Ok(None);
         };
-        let from_start = field(start)?;
-        let [longest, step_detour] = config.corridor.limits(shortest_cells);
-        let n_cols = problem.moves.n_cols();
-        let cells = Numbered::between([&from_start, &to_goal], n_cols, longest);
+        let cells = config.corridor.cells(moves, &to_goal, start, &mut limits)?;
         let to_go = cells.iter().map(|cell| to_goal.distance_cells(cell));
         let to_go = to_go
             .map(|cells| cells.unwrap_or(f64::INFINITY) as f32)
@@ -100,7 +98,7 @@ impl<'a> Ground<'a> {
             )?,
             cells,
             to_go,
-            step_detour,
+            step_detour: config.corridor.step_detour(),
             shortest: to_goal.path(problem.moves, start)?.path,
             reference: PolylineCost::default(),
             meter: SteeringMeter::new(steering, suspended),

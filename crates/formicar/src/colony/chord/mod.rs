@@ -20,7 +20,6 @@ mod limit;
 mod problem;
 mod ring;
 mod safety;
-mod seeding;
 mod transition;
 
 pub use config::ChordConfig;
@@ -32,5 +31,4 @@ pub use engine::run_chords;
 pub use limit::{DynamicLimit, SteeringLimit};
 pub use problem::ChordProblem;
 pub use safety::{FootprintSafety, Safety};
-pub use seeding::PathSeed;
 pub use transition::{ChordTransition, FractionalTransition};

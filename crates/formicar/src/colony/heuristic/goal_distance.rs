@@ -38,15 +38,16 @@ impl GoalDistance {
         )
     }
 
-    pub(super) fn add_to(&self, desire: &mut LogDesire, problem: &ColonyProblem) {
-        let (n_cols, goal) = (problem.moves().n_cols(), problem.goal());
+    pub(super) fn add_to(&self, desire: &mut LogDesire, problem: &ColonyProblem, cells: &[u32]) {
+        let (moves, goal) = (problem.moves(), problem.goal());
         let (goal_col, goal_row) = (f64::from(goal.col), f64::from(goal.row));
-        for (row, cells) in desire.cells.chunks_mut(n_cols).enumerate() {
-            let dy = row as f64 - goal_row;
-            for (col, log) in cells.iter_mut().enumerate() {
-                let distance = (col as f64 - goal_col).hypot(dy);
-                *log -= self.beta * distance.max(self.floor_cells).ln();
-            }
+        for (log, &index) in desire.cells.iter_mut().zip(cells) {
+            let cell = moves.cell(index as usize);
+            let (dx, dy) = (
+                f64::from(cell.col) - goal_col,
+                f64::from(cell.row) - goal_row,
+            );
+            *log -= self.beta * dx.hypot(dy).max(self.floor_cells).ln();
         }
     }
 }

@@ -53,10 +53,10 @@ impl Visibility {
         }
     }
 
-    pub(super) fn add_to(&self, desire: &mut LogDesire, problem: &ColonyProblem) {
+    pub(super) fn add_to(&self, desire: &mut LogDesire, problem: &ColonyProblem, cells: &[u32]) {
         match self {
             Self::None => {}
-            Self::GoalDistance(rule) => rule.add_to(desire, problem),
+            Self::GoalDistance(rule) => rule.add_to(desire, problem, cells),
             Self::StepLength(rule) => rule.add_to(desire),
         }
     }
@@ -69,11 +69,6 @@ impl Guidance {
             Self::GoalField(rule) => rule.check(),
             Self::Advantage(rule) => rule.check(),
         }
-    }
-
-    /// Whether it needs the way to the goal from every cell.
-    pub(super) fn needs_field(&self) -> bool {
-        !matches!(self, Self::None)
     }
 
     /// The logarithm of the factor for a step of a length that changes the way to go, all in
@@ -99,7 +94,7 @@ impl Guidance {
 /// Logarithms of the factors by which an ant favors cells and steps.
 #[derive(Clone, Debug)]
 pub(super) struct LogDesire {
-    /// By cell, row by row.
+    /// By number of the cell.
     pub(super) cells: Vec<f64>,
     /// By place in [`STEPS`](crate::map::STEPS).
     pub(super) steps: [f64; 8],

@@ -1,13 +1,18 @@
 //! Pheromone before the first iteration.
 
+mod astar_seed;
 mod line_gradient;
 mod uniform;
 
+pub use astar_seed::AstarSeed;
 pub use line_gradient::LineGradient;
 pub use uniform::Uniform;
 
+use super::ColonyProblem;
 use crate::map::Cell;
 use crate::numeric::OutOfRange;
+use crate::progress::{Limits, Status};
+use crate::search::{AstarWorkspace, SearchError, astar};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -19,6 +24,8 @@ pub enum InitialPheromone {
     Uniform(Uniform),
     /// Most on the line from start to goal.
     LineGradient(LineGradient),
+    /// Most on a shortest path.
+    AstarSeed(AstarSeed),
 }
 
 /// What a unit of initial pheromone is.
@@ -38,6 +45,7 @@ impl InitialPheromone {
         match self {
             Self::Uniform(rule) => rule.check(),
             Self::LineGradient(rule) => rule.check(),
+            Self::AstarSeed(rule) => rule.check(),
         }
     }
 
@@ -45,14 +53,68 @@ impl InitialPheromone {
         match self {
             Self::Uniform(rule) => rule.unit,
             Self::LineGradient(rule) => rule.unit,
+            Self::AstarSeed(rule) => rule.unit,
         }
     }
 
-    /// Pheromone by cell, row by row, in the rule's unit.
-    pub(super) fn values(&self, (n_cols, n_rows): (usize, usize), ends: [Cell; 2]) -> Vec<f64> {
-        match self {
-            Self::Uniform(rule) => vec![rule.tau; n_cols * n_rows],
-            Self::LineGradient(rule) => rule.values((n_cols, n_rows), ends),
-        }
+    /// Pheromone on the cells that ants can reach, in the rule's unit.
+    pub(super) fn lay(
+        &self,
+        problem: &ColonyProblem,
+        cells: &[u32],
+        limits: &mut Limits,
+    ) -> Result<Laid, SearchError> {
+        let (values, least) = match self {
+            Self::Uniform(rule) => (vec![rule.tau; cells.len()], rule.tau),
+            Self::LineGradient(rule) => {
+                let size = (problem.moves().n_cols(), problem.moves().n_rows());
+                rule.values(size, [problem.start(), problem.goal()], cells)
+            }
+            Self::AstarSeed(rule) => {
+                let path = shortest_path(problem, cells, limits)?;
+                (rule.values(cells.len(), path), rule.least())
+            }
+        };
+        Ok(Laid { values, least })
     }
+}
+
+/// Pheromone before the first iteration.
+pub(super) struct Laid {
+    /// By number of the cell.
+    pub(super) values: Vec<f64>,
+    /// The least anywhere on the map.
+    pub(super) least: f64,
+}
+
+impl Laid {
+    /// The same in a larger or smaller unit.
+    pub(super) fn scale(&mut self, unit: f64) {
+        self.values.iter_mut().for_each(|tau| *tau *= unit);
+        self.least *= unit;
+    }
+}
+
+/// Which of the cells that ants can reach lie on a shortest path; none where there is no path.
+fn shortest_path(
+    problem: &ColonyProblem,
+    cells: &[u32],
+    limits: &mut Limits,
+) -> Result<Vec<usize>, SearchError> {
+    let (moves, ends) = (problem.moves(), [problem.start(), problem.goal()]);
+    let mut limits = limits.without_budget();
+    let found = astar(
+        moves,
+        ends[0],
+        ends[1],
+        &mut AstarWorkspace::new(),
+        &mut limits,
+    );
+    let path = match found {
+        Ok(found) => found.path.cells,
+        Err(error) if error.status() == Some(Status::NoPath) => Vec::new(),
+        Err(error) => return Err(error),
+    };
+    let number = |&cell: &Cell| cells.binary_search(&(moves.index(cell) as u32)).ok();
+    Ok(path.iter().filter_map(number).collect())
 }

@@ -8,7 +8,6 @@ pub use max_min::MaxMin;
 
 use super::generation::Way;
 use super::node::Node;
-use super::problem::Ground;
 use crate::numeric::OutOfRange;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -35,12 +34,11 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    pub(super) fn new(initial: &[f64], ground: &Ground, nodes: &[Node]) -> Self {
-        let n_cells = ground.cells.len().max(1) as f64;
-        let n_steps = |&cell: &u32| nodes[cell as usize].allowed.count_ones();
+    pub(super) fn new(least_initial: f64, nodes: &[Node]) -> Self {
+        let n_steps: u32 = nodes.iter().map(|node| node.allowed.count_ones()).sum();
         Self {
-            initial: initial.iter().copied().fold(f64::INFINITY, f64::min),
-            n_choices: f64::from(ground.cells.iter().map(n_steps).sum::<u32>()) / n_cells,
+            initial: least_initial,
+            n_choices: f64::from(n_steps) / nodes.len().max(1) as f64,
         }
     }
 }

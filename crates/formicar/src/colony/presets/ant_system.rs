@@ -1,6 +1,7 @@
 //! The Ant System: the conventional colony of Lei & Zheng 2020.
 
 use crate::colony::config::{AdjacentGoal, ColonyConfig, Directions, Stopping, TrailLayout};
+use crate::colony::corridor::Corridor;
 use crate::colony::dead_end::DeadEnd;
 use crate::colony::deposit::{AllAnts, Deposit};
 use crate::colony::evaporation::{Constant, Evaporation};
@@ -22,6 +23,7 @@ pub fn ant_system() -> ColonyConfig {
         directions: Directions::Eight,
         diagonal_rule: DiagonalRule::NoObstacles,
         adjacent_goal: AdjacentGoal::Taken,
+        corridor: Corridor::None,
         trails: TrailLayout::Cells,
         cost: PathCost {
             length_weight: 1.0,

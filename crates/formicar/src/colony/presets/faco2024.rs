@@ -2,13 +2,14 @@
 
 use crate::colony::chord::{
     ChordConfig, ChordTransition, CornerRule, CornerTerm, Corridor, DistanceTerm, DynamicLimit,
-    FootprintSafety, FractionalTransition, KnownLengths, NearShortest, PathSeed, Safety,
-    SpreadDeposit, SteeringLimit,
+    FootprintSafety, FractionalTransition, KnownLengths, NearShortest, Safety, SpreadDeposit,
+    SteeringLimit,
 };
 use crate::colony::config::Stopping;
 use crate::colony::dead_end::{DeadEnd, Retreat};
 use crate::colony::evaporation::{Evaporation, Generational};
 use crate::colony::heuristic::{Advantage, Guidance};
+use crate::colony::initial::{AstarSeed, PheromoneUnit};
 use crate::objective::SteeringCost;
 
 /// FACO, Li et al. 2024: ants that step by chords with the steering that a suspended car has,
@@ -37,7 +38,11 @@ pub fn faco2024() -> ChordConfig {
         limit: SteeringLimit::Dynamic(DynamicLimit::default()),
         transition: ChordTransition::Fractional(FractionalTransition::default()),
         dead_end: DeadEnd::Retreat(Retreat { max_steps: 10 }),
-        initial: PathSeed::default(),
+        initial: AstarSeed {
+            tau: 1.0,
+            factor: 5.0,
+            unit: PheromoneUnit::Deposit,
+        },
         evaporation: Evaporation::Generational(Generational::default()),
         deposit: SpreadDeposit::default(),
         cost: SteeringCost::default(),

@@ -1,6 +1,7 @@
 //! The colony of Wang et al. 2019.
 
 use crate::colony::config::{AdjacentGoal, ColonyConfig, Directions, Stopping, TrailLayout};
+use crate::colony::corridor::Corridor;
 use crate::colony::dead_end::DeadEnd;
 use crate::colony::deposit::{BestWorst, Deposit};
 use crate::colony::evaporation::{Constant, Evaporation};
@@ -21,6 +22,7 @@ pub fn wang2019() -> ColonyConfig {
         directions: Directions::Eight,
         diagonal_rule: DiagonalRule::AtMostOneObstacle,
         adjacent_goal: AdjacentGoal::Weighed,
+        corridor: Corridor::None,
         trails: TrailLayout::Edges,
         cost: PathCost::default(),
         visibility: Visibility::GoalDistance(GoalDistance {
