@@ -5,6 +5,7 @@
     reason = "a test suite: helpers outside of tests may fail and say that they skip"
 )]
 
+use formicar::colony::chord::ChordConfig;
 use formicar::colony::{
     ColonyConfig, dead_end, deposit, evaporation, heuristic, initial, limits, transition,
 };
@@ -228,6 +229,19 @@ fn the_page_of_the_engine_has_every_parameter_without_a_slot() {
         let row = format!("| `{key}` | {} |", cell(&default));
         assert!(page.contains(&row), "no row {row}");
     }
+}
+
+#[test]
+fn the_page_of_ants_that_steer_has_every_parameter() {
+    let Some(root) = project() else { return };
+    let page = fs::read_to_string(root.join("docs/src/chords.md")).unwrap();
+    let defaults = flat(&serde_json::to_value(ChordConfig::default()).unwrap());
+    for (key, default) in &defaults {
+        let row = format!("| `{key}` | {} |", cell(default));
+        assert!(page.contains(&row), "no row {row}");
+    }
+    let n_rows = page.lines().filter(|l| l.starts_with("| `")).count();
+    assert_eq!(n_rows, defaults.len(), "rows without a parameter");
 }
 
 #[test]

@@ -2,10 +2,12 @@
 
 use formicar::collision::{Body, Drive, ObstacleMap};
 use formicar::colony::Stop;
+use formicar::colony::chord::{FootprintSafety, Safety};
+use formicar::colony::evaporation::{Constant, Evaporation};
 use formicar::geometry::{Point2, Pose2};
 use formicar::layers::Expansion;
 use formicar::map::generate::{ScatterParameters, free_pose_pairs, scattered_obstacles};
-use formicar::map::{OccupancyGrid, builtin};
+use formicar::map::{Cell, OCCUPIED, OccupancyGrid, builtin};
 use formicar::numeric::Seed;
 use formicar::planner::{Outcome, Plan, PlanError, Planner, PlannerConfig, PlannerName};
 use formicar::progress::{Event, Observer, Status};
@@ -22,6 +24,9 @@ struct Case {
 }
 
 fn case(planner: PlannerName) -> Case {
+    if planner == PlannerName::Faco2024 {
+        return yard_case();
+    }
     let (name, vehicle) = match planner {
         PlannerName::HybridAstar | PlannerName::Lei2020 => ("lei-map1", Vehicle::lei2020()),
         _ => ("wang-open", Vehicle::point()),
@@ -32,6 +37,19 @@ fn case(planner: PlannerName) -> Case {
         map: builtin.grid(),
         vehicle,
         request: Request::new(ends.start, ends.goal),
+    }
+}
+
+/// A yard large beside the steps of a colony that steps by chords.
+fn yard_case() -> Case {
+    let mut map = OccupancyGrid::from_rows(&[&".".repeat(120)[..]; 80], 0.2).expect("rows");
+    for (col, row) in (40..60).flat_map(|col| (20..60).map(move |row| (col, row))) {
+        map.set(Cell::new(col, row), OCCUPIED);
+    }
+    Case {
+        map,
+        vehicle: Vehicle::lei2020(),
+        request: Request::new(Pose2::new(3.1, 8.1, 0.0), Pose2::new(19.1, 8.1, 0.0)),
     }
 }
 
@@ -105,7 +123,7 @@ fn a_budget_stops_it() {
             plan_with(name, &case, &request, &mut ())
         };
         assert_eq!(limited(all_steps).status(), Status::Found, "{name:?}");
-        if name.colony().is_some() {
+        if name.colony().is_some() || name == PlannerName::Faco2024 {
             assert_colony_stops(&limited(all_steps / 2), all_steps / 2);
             assert_eq!(limited(1).status(), Status::BudgetExhausted, "{name:?}");
             continue;
@@ -211,10 +229,20 @@ fn the_number_of_threads_changes_nothing() {
 #[test]
 fn bad_parameters_are_refused_with_their_range() {
     let map = case(PlannerName::HybridAstar).map;
-    let bad: [fn(&mut PlannerConfig); 11] = [
+    let bad: [fn(&mut PlannerConfig); 21] = [
         |c| c.colony.n_ants = 0,
         |c| c.layers.expansion = Expansion::Cells(65),
         |c| c.smoothing.n_members = 0,
+        |c| c.smoothing.bend_weight = f64::NAN,
+        |c| c.chords.n_ants = 0,
+        |c| c.chords.reach = 17,
+        |c| c.chords.growth_radii.clear(),
+        |c| c.chords.growth_radii[0] = -0.1,
+        |c| c.chords.safety = Safety::Footprint(FootprintSafety { margin_cells: 65.0 }),
+        |c| c.chords.cost.epsilon = -1.0,
+        |c| c.chords.evaporation = Evaporation::Constant(Constant { rho: 1.5 }),
+        |c| c.chords.deposit.pheromone = 0.0,
+        |c| c.chords.initial.factor = f64::INFINITY,
         |c| c.hybrid_astar.weight = 0.9,
         |c| c.hybrid_astar.weight = f64::NAN,
         |c| c.hybrid_astar.max_iterations = 0,

@@ -49,18 +49,9 @@ pub struct SmoothingConfig {
     /// the radius, 0 to 1000.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub bend_weight: f64,
-    /// The widest arc, in turning radii, 1 to 1000.
-    #[schemars(range(min = 1.0, max = 1000.0))]
-    pub max_arc_radii: f64,
     /// The margin that ways by wide arcs keep where they can, metres, 0 to 100.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub arc_margin_m: f64,
-    /// Cost of each line or arc along which that margin is not kept, in turning radii, 0 to 1000.
-    #[schemars(range(min = 0.0, max = 1000.0))]
-    pub tight_radii: f64,
-    /// The longest straight way between two corners of wide arcs, in turning radii, 1 to 10 000.
-    #[schemars(range(min = 1.0, max = 10_000.0))]
-    pub leg_radii: f64,
     /// Factor on the length driven in reverse, 1 to 100.
     #[schemars(range(min = 1.0, max = 100.0))]
     pub reverse_penalty: f64,
@@ -80,10 +71,7 @@ impl Default for SmoothingConfig {
             passed_corner_radii: 4.0,
             corner_radii: 0.5,
             bend_weight: 2.0,
-            max_arc_radii: 16.0,
             arc_margin_m: 0.1,
-            tight_radii: 1.0,
-            leg_radii: 100.0,
             reverse_penalty: 2.0,
             direction_switching_cost: 1.0,
         }
@@ -112,10 +100,7 @@ impl SmoothingConfig {
         check_range("smoothing.passed_corner_radii", passed, 0.0..=1000.0)?;
         check_range("smoothing.corner_radii", self.corner_radii, 0.0..=1000.0)?;
         check_range("smoothing.bend_weight", self.bend_weight, 0.0..=1000.0)?;
-        check_range("smoothing.max_arc_radii", self.max_arc_radii, 1.0..=1000.0)?;
         check_range("smoothing.arc_margin_m", self.arc_margin_m, 0.0..=100.0)?;
-        check_range("smoothing.tight_radii", self.tight_radii, 0.0..=1000.0)?;
-        check_range("smoothing.leg_radii", self.leg_radii, 1.0..=1e4)?;
         check_range(
             "smoothing.reverse_penalty",
             self.reverse_penalty,

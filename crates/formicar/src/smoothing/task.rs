@@ -6,6 +6,9 @@ use crate::collision::{Body, Drive, ObstacleMap};
 use crate::geometry::{Arc, Curve, Pose2, dubins, reeds_shepp};
 use crate::scenario::MotionMode;
 
+/// What a line or an arc costs along which the margin is not kept, turning radii.
+const TIGHT_RADII: f64 = 1.0;
+
 /// The poses from which curves lead onto the way, and those to which they lead from it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Ends {
@@ -74,7 +77,7 @@ impl Task<'_> {
             return Some(0.0);
         }
         self.all_free(start, arcs)
-            .then_some(self.config.tight_radii * self.radius_m)
+            .then_some(TIGHT_RADII * self.radius_m)
     }
 
     /// The arcs are cut into short pieces, and those that look tightest are checked first: what

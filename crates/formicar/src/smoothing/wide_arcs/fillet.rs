@@ -7,6 +7,8 @@ use std::f64::consts::PI;
 
 /// Factor from an arc's radius to the next one tried.
 const TIGHTER: f64 = 0.75;
+/// The widest arc, turning radii.
+const MAX_RADII: f64 = 16.0;
 /// Turns below this are none, radians.
 const STRAIGHT_RAD: f64 = 1e-9;
 /// The sharpest corner, radians.
@@ -34,7 +36,7 @@ impl Fillet {
             return None;
         }
         let (tangent, least_m) = ((0.5 * turn_rad.abs()).tan(), task.radius_m);
-        let widest_m = (room_m / tangent).min(task.config.max_arc_radii * least_m);
+        let widest_m = (room_m / tangent).min(MAX_RADII * least_m);
         let wanted_m = widest_m * TIGHTER.powi(n_tighter);
         let radius_m = if wanted_m >= least_m {
             wanted_m

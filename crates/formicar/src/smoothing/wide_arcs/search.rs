@@ -9,6 +9,8 @@ use super::sight::{Sight, Sights};
 use crate::geometry::{Arc, Curve, Point2, Pose2, angle_difference};
 use std::collections::HashMap;
 
+/// The longest leg, turning radii.
+const LEG_RADII: f64 = 100.0;
 /// How much of a leg a corner may take where it cannot do with half.
 const CROWDED_SHARE: f64 = 0.95;
 /// How far from the ends curves to given headings begin and end, turning radii.
@@ -42,7 +44,7 @@ pub(in super::super) fn widest(task: &Task, polyline: &[Point2]) -> Option<WideW
         task.obstacles.lethal(),
         task.obstacles.frame().resolution_m(),
     );
-    let measures = [config.leg_radii, config.corner_radii].map(|radii| radii * radius_m);
+    let measures = [LEG_RADII, config.corner_radii].map(|radii| radii * radius_m);
     let mut search = Search {
         sights: Sights::new(polyline, map, measures)?,
         task,
