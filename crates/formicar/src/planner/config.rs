@@ -2,11 +2,12 @@
 
 use super::sections;
 use crate::colony::{ColonyConfig, ColonyError, presets};
+use crate::evolution::EvolutionConfig;
 use crate::layers::{Expansion, LayersConfig, UShapes};
 use crate::map::DiagonalRule;
 use crate::numeric::OutOfRange;
-use crate::search::HybridAstarConfig;
-use crate::smoothing::SmoothingConfig;
+use crate::search::{HybridAstarConfig, ImprovedAstarConfig};
+use crate::smoothing::{RedundantNodes, SmoothingConfig};
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use thiserror::Error;
@@ -23,14 +24,19 @@ pub struct PlannerConfig {
     pub planner: PlannerName,
     /// Parameters of `hybrid-astar`.
     pub hybrid_astar: HybridAstarConfig,
-    /// Parameters of the planners on the grid, `astar` and `dijkstra`.
+    /// Which steps the planners over cells take: `astar`, `dijkstra`, `improved-astar`, and `ga`
+    /// and `aga`, which measure themselves by the shortest path over cells.
     pub grid_search: GridSearchConfig,
     /// What is laid over the map before ants walk on it.
     pub layers: LayersConfig,
     /// The colony.
     pub colony: ColonyConfig,
-    /// How the ants' path becomes one that a car can drive.
+    /// How a path over cells becomes one that a car can drive.
     pub smoothing: SmoothingConfig,
+    /// Parameters of `improved-astar`.
+    pub improved_astar: ImprovedAstarConfig,
+    /// Parameters of `ga` and `aga`.
+    pub evolution: EvolutionConfig,
 }
 
 impl Default for PlannerConfig {
@@ -58,10 +64,16 @@ pub enum PlannerName {
     /// Hybrid A* over motion primitives with analytic shots.
     #[default]
     HybridAstar,
-    /// A* over cells, 8-connected; its path is a polyline.
+    /// A* over cells, 8-connected.
     Astar,
-    /// Descent of the goal field (Dijkstra from the goal), 8-connected; its path is a polyline.
+    /// Descent of the goal field (Dijkstra from the goal), 8-connected.
     Dijkstra,
+    /// A* over cells whose estimate weighs more far from the goal (after Niu 2021).
+    ImprovedAstar,
+    /// A genetic algorithm over via points, its first population at random.
+    Ga,
+    /// The same, a third of its first population about the path of A*.
+    Aga,
     /// The Ant System (Dorigo, Maniezzo & Colorni 1996).
     AntSystem,
     /// The elitist Ant System.
@@ -80,10 +92,13 @@ pub enum PlannerName {
 
 impl PlannerName {
     /// All planners, the default first.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 13] = [
         Self::HybridAstar,
         Self::Astar,
         Self::Dijkstra,
+        Self::ImprovedAstar,
+        Self::Ga,
+        Self::Aga,
         Self::AntSystem,
         Self::Elitist,
         Self::MaxMin,
@@ -99,6 +114,9 @@ impl PlannerName {
             Self::HybridAstar => "hybrid-astar",
             Self::Astar => "astar",
             Self::Dijkstra => "dijkstra",
+            Self::ImprovedAstar => "improved-astar",
+            Self::Ga => "ga",
+            Self::Aga => "aga",
             Self::AntSystem => "ant-system",
             Self::Elitist => "elitist",
             Self::MaxMin => "max-min",
@@ -115,10 +133,15 @@ impl PlannerName {
             Self::HybridAstar => {
                 "hybrid A* over motion primitives, forward and in reverse, with analytic shots"
             }
-            Self::Astar => "A* over cells, 8-connected; a polyline, certified for point vehicles",
+            Self::Astar => "A* over cells, 8-connected: a shortest path; corners rounded",
             Self::Dijkstra => {
-                "descent of the goal field over cells; a polyline, certified for point vehicles"
+                "descent of the goal field over cells: a shortest path; corners rounded"
             }
+            Self::ImprovedAstar => {
+                "A* that trusts its estimate more far from the goal, at most twice the shortest path"
+            }
+            Self::Ga => "genetic algorithm over via points, begun at random; corners rounded",
+            Self::Aga => "genetic algorithm over via points, begun about the path of A*",
             Self::AntSystem => "Ant System: uniform pheromone, all ants deposit; corners rounded",
             Self::Elitist => "elitist Ant System: the best way so far gains most; corners rounded",
             Self::MaxMin => "MAX-MIN Ant System: only the best ant deposits; corners rounded",
@@ -136,7 +159,12 @@ impl PlannerName {
     /// The colony of this name; none if it is no colony.
     pub fn colony(self) -> Option<ColonyConfig> {
         match self {
-            Self::HybridAstar | Self::Astar | Self::Dijkstra => None,
+            Self::HybridAstar
+            | Self::Astar
+            | Self::Dijkstra
+            | Self::ImprovedAstar
+            | Self::Ga
+            | Self::Aga => None,
             Self::AntSystem => Some(presets::ant_system()),
             Self::Elitist => Some(presets::elitist()),
             Self::MaxMin => Some(presets::max_min()),
@@ -194,6 +222,12 @@ impl PlannerConfig {
             PlannerName::Lei2020 => UShapes::Close,
             _ => UShapes::Keep,
         };
+        let redundant_nodes = match planner {
+            PlannerName::Astar | PlannerName::Dijkstra | PlannerName::Ga | PlannerName::Aga => {
+                RedundantNodes::Collinear
+            }
+            _ => RedundantNodes::Remove,
+        };
         Self {
             planner,
             hybrid_astar: HybridAstarConfig::default(),
@@ -203,7 +237,15 @@ impl PlannerConfig {
                 u_shapes,
             },
             colony: planner.colony().unwrap_or_default(),
-            smoothing: SmoothingConfig::default(),
+            smoothing: SmoothingConfig {
+                redundant_nodes,
+                ..SmoothingConfig::default()
+            },
+            improved_astar: ImprovedAstarConfig::default(),
+            evolution: match planner {
+                PlannerName::Aga => EvolutionConfig::aga(),
+                _ => EvolutionConfig::ga(),
+            },
         }
     }
 
@@ -216,6 +258,8 @@ impl PlannerConfig {
         self.layers.check()?;
         self.colony.check()?;
         self.smoothing.check()?;
+        self.improved_astar.check()?;
+        self.evolution.check()?;
         Ok(())
     }
 }

@@ -7,12 +7,14 @@ use serde::{Deserialize, Deserializer, Serializer};
 use serde_json::{Map, Value};
 
 /// Names of the sections.
-const SECTIONS: [&str; 5] = [
+const SECTIONS: [&str; 7] = [
     "hybrid_astar",
     "grid_search",
     "layers",
     "colony",
     "smoothing",
+    "improved_astar",
+    "evolution",
 ];
 /// The key of the planner's name.
 const PLANNER: &str = "planner";
@@ -30,6 +32,17 @@ pub(super) fn write<S: Serializer>(
         PlannerName::HybridAstar => map.serialize_entry(SECTIONS[0], &config.hybrid_astar)?,
         PlannerName::Astar | PlannerName::Dijkstra => {
             map.serialize_entry(SECTIONS[1], &config.grid_search)?;
+            map.serialize_entry(SECTIONS[4], &config.smoothing)?;
+        }
+        PlannerName::ImprovedAstar => {
+            map.serialize_entry(SECTIONS[1], &config.grid_search)?;
+            map.serialize_entry(SECTIONS[5], &config.improved_astar)?;
+            map.serialize_entry(SECTIONS[4], &config.smoothing)?;
+        }
+        PlannerName::Ga | PlannerName::Aga => {
+            map.serialize_entry(SECTIONS[1], &config.grid_search)?;
+            map.serialize_entry(SECTIONS[6], &config.evolution)?;
+            map.serialize_entry(SECTIONS[4], &config.smoothing)?;
         }
         _ => {
             map.serialize_entry(SECTIONS[2], &config.layers)?;
@@ -61,6 +74,8 @@ pub(super) fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Planner
         layers: section(&mut given, SECTIONS[2], defaults.layers)?,
         colony: section(&mut given, SECTIONS[3], defaults.colony)?,
         smoothing: section(&mut given, SECTIONS[4], defaults.smoothing)?,
+        improved_astar: section(&mut given, SECTIONS[5], defaults.improved_astar)?,
+        evolution: section(&mut given, SECTIONS[6], defaults.evolution)?,
     })
 }
 
