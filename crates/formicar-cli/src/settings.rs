@@ -8,21 +8,22 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use toml::{Table, Value};
 
-/// Planner parameters, and whether the planner among them was chosen.
+/// Planner parameters.
 #[derive(Debug)]
 pub(crate) struct Settings {
     config: PlannerConfig,
-    has_planner: bool,
+    /// The parameters for a point, where no planner was chosen.
+    of_point: Option<PlannerConfig>,
 }
 
 impl Settings {
     /// The parameters for a vehicle: a point, which hybrid A* does not drive, is planned for by
     /// A* unless a planner was chosen.
-    pub(crate) fn for_motion(mut self, motion: Motion) -> PlannerConfig {
-        if motion == Motion::Point && !self.has_planner {
-            self.config.planner = PlannerName::Astar;
+    pub(crate) fn for_motion(self, motion: Motion) -> PlannerConfig {
+        match (motion, self.of_point) {
+            (Motion::Point, Some(of_point)) => of_point,
+            _ => self.config,
         }
-        self.config
     }
 }
 
@@ -44,12 +45,15 @@ pub(crate) fn load(
         apply(&mut table, set)?;
         config = typed(&table).with_context(|| format!("--set {set:?}"))?;
     }
-    let has_planner = table.contains_key("planner");
     config.check()?;
-    Ok(Settings {
-        config,
-        has_planner,
-    })
+    let of_point = if table.contains_key("planner") {
+        None
+    } else {
+        // What is left out is that of A*, whose defaults are not those of hybrid A*.
+        table.insert("planner".to_owned(), PlannerName::Astar.name().into());
+        Some(typed(&table).with_context(|| name_of(file))?)
+    };
+    Ok(Settings { config, of_point })
 }
 
 /// The parameters in a table, each of its own type.
@@ -199,6 +203,15 @@ mod tests {
             planner(Some(PlannerName::HybridAstar)),
             PlannerName::HybridAstar
         );
+    }
+
+    #[test]
+    fn a_point_gets_the_defaults_of_astar_and_what_was_set() {
+        let sets = ["grid_search.diagonal_rule=always".to_owned()];
+        let config = load(None, &sets, None).unwrap().for_motion(Motion::Point);
+        let mut expected = PlannerConfig::of(PlannerName::Astar);
+        expected.grid_search.diagonal_rule = formicar::map::DiagonalRule::Always;
+        assert_eq!(config, expected);
     }
 
     #[test]

@@ -5,7 +5,10 @@ mod support;
 use divan::{Bencher, black_box};
 use formicar::map::{BitGrid, Cell, DiagonalRule, DistanceField, MoveMasks, STEPS};
 use formicar::progress::Limits;
-use formicar::search::{AstarWorkspace, DIAGONAL_COST, GoalField, STRAIGHT_COST, astar};
+use formicar::search::{
+    AstarWorkspace, DIAGONAL_COST, GoalField, ImprovedAstarConfig, STRAIGHT_COST, astar,
+    improved_astar,
+};
 use pathfinding::prelude::astar as peer_astar;
 use support::{SIZES, hood, town};
 
@@ -28,7 +31,8 @@ fn goal_field(bencher: Bencher, (n_cols, n_rows): (usize, usize)) {
 mod hood_800x500 {
     use super::{
         AstarWorkspace, Bencher, BitGrid, Cell, DIAGONAL_COST, DiagonalRule, DistanceField,
-        GoalField, Limits, MoveMasks, STEPS, STRAIGHT_COST, astar, black_box, hood, peer_astar,
+        GoalField, ImprovedAstarConfig, Limits, MoveMasks, STEPS, STRAIGHT_COST, astar, black_box,
+        hood, improved_astar, peer_astar,
     };
 
     const INFLATION_CELLS: f64 = 0.5 / 0.2;
@@ -65,6 +69,25 @@ mod hood_800x500 {
         let mut workspace = AstarWorkspace::new();
         bencher.bench_local(|| {
             let cost = |&ends: &[Cell; 2]| own_cost(&moves, ends, &mut workspace);
+            queries.iter().map(cost).sum::<u64>()
+        });
+    }
+
+    /// The same with the estimate of Niu 2021.
+    #[divan::bench]
+    fn improved_astar_10_queries(bencher: Bencher) {
+        let Some((blocked, queries)) = inflated() else {
+            return;
+        };
+        let moves = MoveMasks::new(&blocked, DiagonalRule::NoObstacles);
+        let (mut workspace, config) = (AstarWorkspace::new(), ImprovedAstarConfig::default());
+        bencher.bench_local(|| {
+            let cost = |&ends: &[Cell; 2]| {
+                let mut nobody = ();
+                let mut limits = Limits::new(&mut nobody, None, None);
+                let found = improved_astar(&moves, ends, &config, &mut workspace, &mut limits);
+                found.map_or(0, |found| found.cost())
+            };
             queries.iter().map(cost).sum::<u64>()
         });
     }

@@ -6,13 +6,14 @@
 //!
 //! Modules are ranked, and each uses only those before it: [`numeric`], [`geometry`], [`vehicle`],
 //! [`map`], [`path`], [`collision`], [`scenario`], [`validation`], [`metrics`], [`progress`],
-//! [`layers`], [`objective`], [`smoothing`], [`search`], [`colony`], [`tracking`], [`planner`],
-//! [`render`]. SI units and radians inside; a pose is the center of the rear axle, x forward, y
+//! [`layers`], [`objective`], [`smoothing`], [`search`], [`colony`], [`evolution`],
+//! [`tracking`], [`planner`], [`render`]. SI units and radians inside; a pose is the center of the rear axle, x forward, y
 //! left, heading counter-clockwise.
 #![forbid(unsafe_code)]
 
 pub mod collision;
 pub mod colony;
+pub mod evolution;
 pub mod geometry;
 pub mod layers;
 pub mod map;

@@ -12,7 +12,8 @@ use formicar::map::{BitGrid, Cell, DiagonalRule, MoveMasks, STEPS};
 use formicar::map::{Components, DistanceField};
 use formicar::progress::{Limits, Observer, Status};
 use formicar::search::{
-    AstarWorkspace, DIAGONAL_COST, GoalField, GridSearch, STRAIGHT_COST, SearchError, astar,
+    AstarWorkspace, DIAGONAL_COST, GoalField, GridSearch, ImprovedAstarConfig, STRAIGHT_COST,
+    SearchError, astar, improved_astar,
 };
 use formicar::vehicle::Vehicle;
 use proptest::prelude::*;
@@ -151,6 +152,46 @@ proptest! {
                     prop_assert_eq!(found.cost(), cost);
                     assert_walkable(&blocked, rule, [start, goal], &found);
                 }
+            }
+        }
+    }
+
+    /// The bound of the estimate that weighs more far from the goal; with weight 0 it is A*.
+    #[test]
+    fn improved_astar_is_at_most_one_and_the_weight_times_as_long_and_without_it_astar(
+        blocked in random_grid(),
+        places in prop::array::uniform2(any::<prop::sample::Index>()),
+        weight in 0.0..=2.0,
+    ) {
+        let n_cols = blocked.n_cols();
+        let ends = places.map(|place| {
+            let i = place.index(n_cols * blocked.n_rows());
+            Cell::new((i % n_cols) as u32, (i / n_cols) as u32)
+        });
+        prop_assume!(ends.iter().all(|c| !blocked.get(c.col as usize, c.row as usize)));
+        let mut workspace = AstarWorkspace::new();
+        for rule in DiagonalRule::ALL {
+            let moves = MoveMasks::new(&blocked, rule);
+            let mut improved = |distance_weight: f64| {
+                let mut nobody = ();
+                let mut limits = Limits::new(&mut nobody, None, None);
+                let config = ImprovedAstarConfig { distance_weight };
+                let found = improved_astar(&moves, ends, &config, &mut workspace, &mut limits);
+                (found, limits.n_steps())
+            };
+            let mut nobody = ();
+            let mut limits = Limits::new(&mut nobody, None, None);
+            let shortest = astar(&moves, ends[0], ends[1], &mut AstarWorkspace::new(), &mut limits);
+            prop_assert_eq!(improved(0.0), (shortest.clone(), limits.n_steps()));
+            for weight in [weight, 1.0] {
+                let found = improved(weight).0;
+                let (Ok(found), Ok(shortest)) = (&found, &shortest) else {
+                    prop_assert_eq!(&found, &shortest);
+                    continue;
+                };
+                assert_walkable(&blocked, rule, ends, found);
+                prop_assert!(found.cost() >= shortest.cost());
+                prop_assert!(found.cost() as f64 <= (1.0 + weight) * shortest.cost() as f64);
             }
         }
     }

@@ -4,6 +4,7 @@ use formicar::collision::{Body, Drive, ObstacleMap};
 use formicar::colony::Stop;
 use formicar::colony::chord::{FootprintSafety, Safety};
 use formicar::colony::evaporation::{Constant, Evaporation};
+use formicar::evolution::{AstarSeeded, InitialPopulation};
 use formicar::geometry::{Point2, Pose2};
 use formicar::layers::Expansion;
 use formicar::map::generate::{ScatterParameters, free_pose_pairs, scattered_obstacles};
@@ -12,6 +13,7 @@ use formicar::numeric::Seed;
 use formicar::planner::{Outcome, Plan, PlanError, Planner, PlannerConfig, PlannerName};
 use formicar::progress::{Event, Observer, Status};
 use formicar::scenario::{GoalHeading, GoalTolerance, MotionMode, Request, StartHeading};
+use formicar::smoothing::{CornerRecord, Rounding};
 use formicar::validation::judge;
 use formicar::vehicle::{Motion, Vehicle};
 use std::time::Duration;
@@ -128,6 +130,11 @@ fn a_budget_stops_it() {
             assert_eq!(limited(1).status(), Status::BudgetExhausted, "{name:?}");
             continue;
         }
+        if matches!(name, PlannerName::Ga | PlannerName::Aga) {
+            assert_population_stops(&limited(all_steps / 2), all_steps / 2);
+            assert_population_stops(&limited(1), 1);
+            continue;
+        }
         match limited(all_steps / 2) {
             Outcome::NotFound(failure) => {
                 assert_eq!(failure.status, Status::BudgetExhausted, "{name:?}");
@@ -144,6 +151,21 @@ fn assert_colony_stops(outcome: &Outcome, budget: u64) {
     let run = outcome.stages().colony.as_ref().expect("a colony");
     assert_eq!(run.stop, Stop::Budget);
     assert!(run.best.is_some());
+}
+
+/// A population that runs out of steps, one to an individual, keeps its best; without one it says
+/// why it ended.
+fn assert_population_stops(outcome: &Outcome, budget: u64) {
+    assert_eq!(outcome.n_steps(), budget);
+    let run = outcome.stages().evolution.as_ref().expect("a population");
+    assert_eq!(run.stop, Stop::Budget);
+    let n_evaluated = run.history.iterations.iter();
+    let n_evaluated: u32 = n_evaluated.map(|record| record.n_ants).sum();
+    assert!(u64::from(n_evaluated) >= budget);
+    match run.best {
+        Some(_) => assert_eq!(outcome.status(), Status::Found),
+        None => assert_eq!(outcome.status(), Status::BudgetExhausted),
+    }
 }
 
 struct Watch {
@@ -226,10 +248,17 @@ fn the_number_of_threads_changes_nothing() {
     }
 }
 
+fn seeded(share: f64) -> InitialPopulation {
+    InitialPopulation::AstarSeeded(AstarSeeded {
+        share,
+        ..AstarSeeded::default()
+    })
+}
+
 #[test]
 fn bad_parameters_are_refused_with_their_range() {
     let map = case(PlannerName::HybridAstar).map;
-    let bad: [fn(&mut PlannerConfig); 21] = [
+    let bad: [fn(&mut PlannerConfig); 34] = [
         |c| c.colony.n_ants = 0,
         |c| c.layers.expansion = Expansion::Cells(65),
         |c| c.smoothing.n_members = 0,
@@ -243,6 +272,19 @@ fn bad_parameters_are_refused_with_their_range() {
         |c| c.chords.evaporation = Evaporation::Constant(Constant { rho: 1.5 }),
         |c| c.chords.deposit.pheromone = 0.0,
         |c| c.chords.initial.factor = f64::INFINITY,
+        |c| c.improved_astar.distance_weight = -0.1,
+        |c| c.evolution.n_individuals = 1,
+        |c| c.evolution.n_generations = 0,
+        |c| c.evolution.n_via = 9,
+        |c| c.evolution.n_via_min = 4,
+        |c| c.evolution.n_via_max = 9,
+        |c| c.evolution.tournament_size = 0,
+        |c| c.evolution.n_elite = 100,
+        |c| c.evolution.crossover = 1.1,
+        |c| c.evolution.mutation.smooth = f64::NAN,
+        |c| c.evolution.collision_weight = -1.0,
+        |c| c.evolution.cost.length_weight = 0.0,
+        |c| c.evolution.initial = seeded(1.5),
         |c| c.hybrid_astar.weight = 0.9,
         |c| c.hybrid_astar.weight = f64::NAN,
         |c| c.hybrid_astar.max_iterations = 0,
@@ -303,20 +345,64 @@ fn no_grid_planner_beats_another_on_its_own_map() {
     }
 }
 
-#[test]
-fn a_cars_detour_on_the_grid_is_refused_by_the_judge_and_says_so() {
-    let case = case(PlannerName::HybridAstar);
-    let outcome = plan_with(PlannerName::Astar, &case, &case.request, &mut ());
-    let Outcome::NotFound(failure) = outcome else {
-        panic!("a polyline cannot be driven")
+/// The 3 m car of the paper on a built-in map, headings free.
+fn driven(map: &str, planner: PlannerName) -> Outcome {
+    let builtin = builtin::BuiltinMap::by_name(map).expect("a built-in map");
+    let ends = &builtin.requests[0];
+    let request = Request {
+        start_heading: StartHeading::Any,
+        goal_heading: GoalHeading::Any,
+        ..Request::new(ends.start, ends.goal)
     };
-    assert_eq!(failure.status, Status::Infeasible);
-    assert!(
-        failure.reason.contains("turns on the spot") || failure.reason.contains("heading"),
-        "{}",
-        failure.reason
-    );
-    assert!(failure.refused.is_some());
+    let case = Case {
+        map: builtin.grid(),
+        vehicle: Vehicle::lei2020(),
+        request,
+    };
+    plan_with(planner, &case, &case.request, &mut ())
+}
+
+#[test]
+fn planners_over_cells_drive_cars_around_rounded_corners() {
+    for (map, planner) in [
+        ("lei-map3", PlannerName::Dijkstra),
+        ("lei-map3", PlannerName::ImprovedAstar),
+        ("lei-map3", PlannerName::Aga),
+    ] {
+        let plan = found(driven(map, planner));
+        let stages = &plan.stages;
+        assert!(stages.nodes.len() > 2, "{planner:?}");
+        assert!(!stages.corners.is_empty(), "{planner:?}");
+        let is_rounded = |corner: &CornerRecord| corner.rounding != Rounding::None;
+        assert!(stages.corners.iter().all(is_rounded), "{planner:?}");
+        assert_eq!(stages.evolution.is_some(), planner == PlannerName::Aga);
+    }
+}
+
+#[test]
+fn what_a_planner_over_cells_cannot_give_a_car_is_named() {
+    for (map, planner, status, words) in [
+        (
+            "lei-map2",
+            PlannerName::Astar,
+            Status::Infeasible,
+            ["astar found a way of 56 cells", "hint: hybrid-astar"],
+        ),
+        (
+            "lei-map3",
+            PlannerName::Ga,
+            Status::NoPath,
+            ["free of collisions", "evolution.n_via_max"],
+        ),
+    ] {
+        let Outcome::NotFound(failure) = driven(map, planner) else {
+            panic!("{planner:?} found a path on {map}")
+        };
+        assert_eq!(failure.status, status, "{planner:?}");
+        for word in words {
+            assert!(failure.reason.contains(word), "{}", failure.reason);
+        }
+    }
 }
 
 #[test]
@@ -381,8 +467,13 @@ fn what_is_found_on_random_maps_touches_nothing() {
         PlannerName::HybridAstar,
         PlannerName::Lei2020,
         PlannerName::Wang2019,
+        PlannerName::Astar,
+        PlannerName::Dijkstra,
+        PlannerName::ImprovedAstar,
+        PlannerName::Ga,
+        PlannerName::Aga,
     ];
-    let mut n_found = [0; 3];
+    let mut n_found = [0; 8];
     for seed in 0..12 {
         let parameters = ScatterParameters {
             n_cols: 120,

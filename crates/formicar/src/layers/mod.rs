@@ -72,22 +72,7 @@ impl Layers {
     /// Where expansion covers a start or a goal, ants begin and end their way there instead. Cost
     /// grows with the square of the distance.
     pub fn nearest_open(&self, cell: Cell, max_radius_cells: u32) -> Option<Cell> {
-        let (n_cols, n_rows) = (self.blocked.n_cols(), self.blocked.n_rows());
-        if cell.col as usize >= n_cols || cell.row as usize >= n_rows {
-            return None;
-        }
-        let is_open = |cell: &Cell| !self.blocked.get(cell.col as usize, cell.row as usize);
-        let by_distance = |open: Cell| (squared_distance(cell, open), open.row, open.col);
-        let limit = u64::from(max_radius_cells).pow(2);
-        let mut nearest = (limit + 1, 0, 0);
-        for radius in 0..n_cols.max(n_rows) as u32 {
-            if u64::from(radius).pow(2) > nearest.0.min(limit) {
-                break;
-            }
-            let open = ring(cell, radius, n_cols, n_rows).filter(is_open);
-            nearest = open.map(by_distance).fold(nearest, Ord::min);
-        }
-        (nearest.0 <= limit).then(|| Cell::new(nearest.2, nearest.1))
+        nearest_open(&self.blocked, cell, max_radius_cells)
     }
 
     /// Number of pockets with a fate.
@@ -106,6 +91,27 @@ impl Layers {
         (self.closed, self.pockets) = u_shapes::close_u_shapes(&self.blocked, &ends, rule);
         self.blocked.unite(&self.closed);
     }
+}
+
+/// The cell outside of a set whose center is nearest to that of a cell, as
+/// [`Layers::nearest_open`] tells it of the blocked ones.
+pub fn nearest_open(blocked: &BitGrid, cell: Cell, max_radius_cells: u32) -> Option<Cell> {
+    let (n_cols, n_rows) = (blocked.n_cols(), blocked.n_rows());
+    if cell.col as usize >= n_cols || cell.row as usize >= n_rows {
+        return None;
+    }
+    let is_open = |cell: &Cell| !blocked.get(cell.col as usize, cell.row as usize);
+    let by_distance = |open: Cell| (squared_distance(cell, open), open.row, open.col);
+    let limit = u64::from(max_radius_cells).pow(2);
+    let mut nearest = (limit + 1, 0, 0);
+    for radius in 0..n_cols.max(n_rows) as u32 {
+        if u64::from(radius).pow(2) > nearest.0.min(limit) {
+            break;
+        }
+        let open = ring(cell, radius, n_cols, n_rows).filter(is_open);
+        nearest = open.map(by_distance).fold(nearest, Ord::min);
+    }
+    (nearest.0 <= limit).then(|| Cell::new(nearest.2, nearest.1))
 }
 
 /// A radius that reaches all over every map.

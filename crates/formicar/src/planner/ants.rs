@@ -1,5 +1,6 @@
 //! Planning by a colony: layers, ants over cells, nodes, a curve.
 
+use super::curve::Origin;
 use super::run::{Ended, Found};
 use super::{PlanError, Planner, Stages};
 use crate::colony::{ColonyProblem, ColonyRun, RunError, Stop, run};
@@ -9,7 +10,6 @@ use crate::numeric::Seed;
 use crate::progress::{Event, Limits, Status};
 use crate::scenario::Request;
 use crate::search::SearchError;
-use crate::smoothing::{Ground, smooth};
 
 impl Planner {
     /// Sends the configured colony, and makes its best path drivable.
@@ -43,7 +43,7 @@ impl Planner {
                 ..Ended::new(stop.status(), stages)
             }));
         }
-        Ok(self.curve_of(request, stages))
+        Ok(self.drive_the_way(request, stages))
     }
 
     /// Lays the layers, and finds the cells between which ants walk: those of start and goal or,
@@ -86,37 +86,18 @@ impl Planner {
     }
 
     /// Makes the best path of the colony drivable.
-    fn curve_of(&self, request: &Request, mut stages: Stages) -> Result<Found, Ended> {
-        let blocked = stages.layers.as_ref().map(|layers| &layers.blocked);
-        let ground = Ground {
-            obstacles: &self.obstacles,
-            vehicle: &self.vehicle,
-            blocked: blocked.unwrap_or(self.obstacles.lethal()),
+    fn drive_the_way(&self, request: &Request, stages: Stages) -> Result<Found, Ended> {
+        let layers = stages.layers.as_ref();
+        let blocked = layers.map_or(self.obstacles.lethal(), |layers| &layers.blocked);
+        let blocked = blocked.clone();
+        let way = stages.grid_path.clone().unwrap_or_default();
+        let origin = Origin {
+            blocked: &blocked,
             rule: self.config.colony.diagonal_rule,
+            found: format!("the ants found a way of {} cells", way.cells.len()),
+            hint: "a larger layers.expansion keeps them off corners",
         };
-        let path = stages.grid_path.clone().unwrap_or_default();
-        let config = &self.config.smoothing;
-        let nodes = config
-            .redundant_nodes
-            .apply(ground.blocked, ground.rule, &path);
-        let smoothed = smooth(&ground, config, request, &nodes);
-        stages.nodes = nodes;
-        match smoothed {
-            Ok(smoothed) => {
-                stages.corners = smoothed.corners;
-                Ok(Found {
-                    path: smoothed.path,
-                    stages,
-                })
-            }
-            Err(error) => {
-                let reason = format!(
-                    "the ants found a way of {} cells that cannot be made drivable: {error}; hint: a larger layers.expansion keeps them off corners",
-                    path.cells.len()
-                );
-                Err(Ended::because(Status::Infeasible, reason, stages))
-            }
-        }
+        self.curve_of(request, stages, &way, &origin)
     }
 
     /// Why a colony has no path, where that is its own fault.

@@ -94,7 +94,7 @@ impl Planner {
         let frame = self.obstacles.frame();
         let cell = |pose: Pose2| frame.cell_at(pose.position()).unwrap_or_default();
         let ends = [request.start, request.goal].map(cell);
-        let grown = self.grown(attempt.growth_radii, ends);
+        let grown = self.grown_for_guide(attempt.growth_radii, ends);
         let problem = ChordProblem {
             obstacles: &self.obstacles,
             vehicle: &self.vehicle,
@@ -171,7 +171,7 @@ impl Planner {
 
     /// Obstacles grown by half the vehicle's width and some turning radii, but not around the
     /// ends, where the body is known to be free.
-    fn grown(&self, growth_radii: f64, ends: [Cell; 2]) -> BitGrid {
+    fn grown_for_guide(&self, growth_radii: f64, ends: [Cell; 2]) -> BitGrid {
         let (obstacles, vehicle) = (&self.obstacles, &self.vehicle);
         let growth_m = 0.5 * vehicle.width_m() + growth_radii * vehicle.min_turning_radius_m();
         let limit = f64::from(obstacles.distance().truncation_cells()) - 0.5;

@@ -3,10 +3,11 @@
 use super::sections;
 use crate::colony::chord::ChordConfig;
 use crate::colony::{ColonyConfig, ColonyError, presets};
+use crate::evolution::EvolutionConfig;
 use crate::layers::{Expansion, LayersConfig, UShapes};
 use crate::map::DiagonalRule;
 use crate::numeric::OutOfRange;
-use crate::search::HybridAstarConfig;
+use crate::search::{HybridAstarConfig, ImprovedAstarConfig};
 use crate::smoothing::{Corners, RedundantNodes, SmoothingConfig};
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -24,7 +25,8 @@ pub struct PlannerConfig {
     pub planner: PlannerName,
     /// Parameters of `hybrid-astar`.
     pub hybrid_astar: HybridAstarConfig,
-    /// Parameters of the planners on the grid, `astar` and `dijkstra`.
+    /// Which steps the planners over cells take: `astar`, `dijkstra`, `improved-astar`, and `ga`
+    /// and `aga`, which measure themselves by the shortest path over cells.
     pub grid_search: GridSearchConfig,
     /// What is laid over the map before ants walk on it.
     pub layers: LayersConfig,
@@ -32,8 +34,12 @@ pub struct PlannerConfig {
     pub colony: ColonyConfig,
     /// The colony that steps by chords, `faco2024`.
     pub chords: ChordConfig,
-    /// How the ants' path becomes one that a car can drive.
+    /// How a path over cells becomes one that a car can drive.
     pub smoothing: SmoothingConfig,
+    /// Parameters of `improved-astar`.
+    pub improved_astar: ImprovedAstarConfig,
+    /// Parameters of `ga` and `aga`.
+    pub evolution: EvolutionConfig,
 }
 
 impl Default for PlannerConfig {
@@ -61,10 +67,16 @@ pub enum PlannerName {
     /// Hybrid A* over motion primitives with analytic shots.
     #[default]
     HybridAstar,
-    /// A* over cells, 8-connected; its path is a polyline.
+    /// A* over cells, 8-connected.
     Astar,
-    /// Descent of the goal field (Dijkstra from the goal), 8-connected; its path is a polyline.
+    /// Descent of the goal field (Dijkstra from the goal), 8-connected.
     Dijkstra,
+    /// A* over cells whose estimate weighs more far from the goal (after Niu 2021).
+    ImprovedAstar,
+    /// A genetic algorithm over via points, its first population at random.
+    Ga,
+    /// The same, a third of its first population about the path of A*.
+    Aga,
     /// The Ant System (Dorigo, Maniezzo & Colorni 1996).
     AntSystem,
     /// The elitist Ant System.
@@ -85,10 +97,13 @@ pub enum PlannerName {
 
 impl PlannerName {
     /// All planners, the default first.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 14] = [
         Self::HybridAstar,
         Self::Astar,
         Self::Dijkstra,
+        Self::ImprovedAstar,
+        Self::Ga,
+        Self::Aga,
         Self::AntSystem,
         Self::Elitist,
         Self::MaxMin,
@@ -105,6 +120,9 @@ impl PlannerName {
             Self::HybridAstar => "hybrid-astar",
             Self::Astar => "astar",
             Self::Dijkstra => "dijkstra",
+            Self::ImprovedAstar => "improved-astar",
+            Self::Ga => "ga",
+            Self::Aga => "aga",
             Self::AntSystem => "ant-system",
             Self::Elitist => "elitist",
             Self::MaxMin => "max-min",
@@ -122,10 +140,15 @@ impl PlannerName {
             Self::HybridAstar => {
                 "hybrid A* over motion primitives, forward and in reverse, with analytic shots"
             }
-            Self::Astar => "A* over cells, 8-connected; a polyline, certified for point vehicles",
+            Self::Astar => "A* over cells, 8-connected: a shortest path; corners rounded",
             Self::Dijkstra => {
-                "descent of the goal field over cells; a polyline, certified for point vehicles"
+                "descent of the goal field over cells: a shortest path; corners rounded"
             }
+            Self::ImprovedAstar => {
+                "A* that trusts its estimate more far from the goal, at most twice the shortest path"
+            }
+            Self::Ga => "genetic algorithm over via points, begun at random; corners rounded",
+            Self::Aga => "genetic algorithm over via points, begun about the path of A*",
             Self::AntSystem => "Ant System: uniform pheromone, all ants deposit; corners rounded",
             Self::Elitist => "elitist Ant System: the best way so far gains most; corners rounded",
             Self::MaxMin => "MAX-MIN Ant System: only the best ant deposits; corners rounded",
@@ -146,7 +169,13 @@ impl PlannerName {
     /// The colony over cells of this name; none if it is no such colony.
     pub fn colony(self) -> Option<ColonyConfig> {
         match self {
-            Self::HybridAstar | Self::Astar | Self::Dijkstra | Self::Faco2024 => None,
+            Self::HybridAstar
+            | Self::Astar
+            | Self::Dijkstra
+            | Self::ImprovedAstar
+            | Self::Ga
+            | Self::Aga
+            | Self::Faco2024 => None,
             Self::AntSystem => Some(presets::ant_system()),
             Self::Elitist => Some(presets::elitist()),
             Self::MaxMin => Some(presets::max_min()),
@@ -214,14 +243,11 @@ impl PlannerConfig {
             },
             colony: planner.colony().unwrap_or_default(),
             chords: ChordConfig::default(),
-            smoothing: match planner {
-                PlannerName::Faco2024 => SmoothingConfig {
-                    redundant_nodes: RedundantNodes::Keep,
-                    corners: Corners::WideArcs,
-                    direction_switching_cost: 10.0,
-                    ..SmoothingConfig::default()
-                },
-                _ => SmoothingConfig::default(),
+            smoothing: smoothing(planner),
+            improved_astar: ImprovedAstarConfig::default(),
+            evolution: match planner {
+                PlannerName::Aga => EvolutionConfig::aga(),
+                _ => EvolutionConfig::ga(),
             },
         }
     }
@@ -236,6 +262,28 @@ impl PlannerConfig {
         self.colony.check()?;
         self.chords.check()?;
         self.smoothing.check()?;
+        self.improved_astar.check()?;
+        self.evolution.check()?;
         Ok(())
+    }
+}
+
+/// How the paths of a planner are made drivable.
+fn smoothing(planner: PlannerName) -> SmoothingConfig {
+    let default = SmoothingConfig::default();
+    match planner {
+        PlannerName::Astar | PlannerName::Dijkstra | PlannerName::Ga | PlannerName::Aga => {
+            SmoothingConfig {
+                redundant_nodes: RedundantNodes::Collinear,
+                ..default
+            }
+        }
+        PlannerName::Faco2024 => SmoothingConfig {
+            redundant_nodes: RedundantNodes::Keep,
+            corners: Corners::WideArcs,
+            direction_switching_cost: 10.0,
+            ..default
+        },
+        _ => default,
     }
 }

@@ -2,8 +2,11 @@
 
 mod answer;
 mod ants;
+mod cells;
 mod chords;
 mod config;
+mod curve;
+mod evolve;
 mod explain;
 mod outcome;
 mod path_document;
@@ -11,7 +14,7 @@ mod request_document;
 mod run;
 mod sections;
 
-pub use crate::search::HybridAstarConfig;
+pub use crate::search::{HybridAstarConfig, ImprovedAstarConfig};
 pub use answer::{
     ANSWER_SCHEMA, Answer, AnswerContext, AnswerError, CertificateHashes, CertificateNumbers,
     ColonyRecord, MapRecord, Provenance, StoredPath, Timing, VehicleRecord,
@@ -22,11 +25,10 @@ pub use path_document::{POSE_SPACING_M, PathDocument, PoseRecord, SegmentRecord}
 pub use request_document::RequestDocument;
 
 use crate::collision::ObstacleMap;
-use crate::map::{MoveMasks, OccupancyGrid};
+use crate::map::OccupancyGrid;
 use crate::numeric::Seed;
 use crate::progress::{Limits, Observer};
 use crate::scenario::{Request, Scenario};
-use crate::search::AstarWorkspace;
 use crate::vehicle::Vehicle;
 use std::sync::Arc;
 
@@ -38,7 +40,7 @@ pub struct Planner {
     config: PlannerConfig,
     n_threads: usize,
     /// What searches over cells prepare and reuse.
-    grid: Option<(MoveMasks, AstarWorkspace)>,
+    cells: Option<cells::PreparedCells>,
 }
 
 impl Planner {
@@ -69,7 +71,7 @@ impl Planner {
             vehicle,
             config,
             n_threads: 1,
-            grid: None,
+            cells: None,
         })
     }
 

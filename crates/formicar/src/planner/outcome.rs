@@ -2,6 +2,7 @@
 
 use super::{ConfigError, PlannerName};
 use crate::colony::ColonyRun;
+use crate::evolution::EvolutionRun;
 use crate::layers::Layers;
 use crate::map::Cell;
 use crate::metrics::PathMetrics;
@@ -97,6 +98,8 @@ pub struct Stages {
     pub layers: Option<Layers>,
     /// The run of the colony.
     pub colony: Option<ColonyRun>,
+    /// The run of a population.
+    pub evolution: Option<EvolutionRun>,
     /// The chain of cells found.
     pub grid_path: Option<GridPath>,
     /// Those of its cells at which a polyline turns.

@@ -1,19 +1,15 @@
 //! From a request to a certified path: search, curve, judge, metrics.
 
 use super::{NotFound, Outcome, Plan, PlanError, Planner, PlannerName, Stages};
-use crate::collision::ObstacleMap;
-use crate::geometry::{Arc, Point2, Pose2};
-use crate::map::{BitGrid, Cell, MoveMasks};
+use crate::geometry::{Arc, Pose2};
 use crate::metrics::{ClearanceSummary, PathMetrics};
 use crate::numeric::Seed;
-use crate::path::{CurvePath, Direction, GridPath};
+use crate::path::{CurvePath, Direction};
 use crate::progress::{Event, Limits, Status};
 use crate::scenario::{Request, StartHeading};
-use crate::search::{
-    AstarWorkspace, GoalField, GridSearch, HybridProblem, SearchError, astar, hybrid_astar,
-};
+use crate::search::{HybridProblem, hybrid_astar};
 use crate::validation::judge;
-use crate::vehicle::{Motion, Vehicle};
+use crate::vehicle::Motion;
 
 /// What a search found, before it is judged.
 pub(super) struct Found {
@@ -60,26 +56,19 @@ impl Planner {
         seed: Seed,
         limits: &mut Limits,
     ) -> Result<Result<Found, Ended>, PlanError> {
-        let result = match self.config.planner {
+        match self.config.planner {
             PlannerName::HybridAstar if self.vehicle.motion() == Motion::Car => {
-                return self.drive(request, limits);
+                self.drive(request, limits)
             }
-            PlannerName::HybridAstar => {
-                return Err(PlanError::NeedsACar {
-                    planner: PlannerName::HybridAstar,
-                });
+            PlannerName::HybridAstar => Err(PlanError::NeedsACar {
+                planner: PlannerName::HybridAstar,
+            }),
+            PlannerName::Astar | PlannerName::Dijkstra | PlannerName::ImprovedAstar => {
+                self.walk(request, limits)
             }
-            PlannerName::Astar => self.walk(request, limits, astar_path),
-            PlannerName::Dijkstra => self.walk(request, limits, field_path),
-            PlannerName::Faco2024 => return self.send_steering_ants(request, seed, limits),
-            _ => return self.send_ants(request, seed, limits),
-        };
-        match result {
-            Ok(found) => Ok(Ok(found)),
-            Err(SearchError::Ended { status }) => Ok(Err(status.into())),
-            // The vehicle fits, but the disc that stands for it on the grid does not.
-            Err(SearchError::Blocked { .. }) => Ok(Err(Status::NoPath.into())),
-            Err(error) => Err(PlanError::Search(error)),
+            PlannerName::Ga | PlannerName::Aga => self.evolve(request, seed, limits),
+            PlannerName::Faco2024 => self.send_steering_ants(request, seed, limits),
+            _ => self.send_ants(request, seed, limits),
         }
     }
 
@@ -106,51 +95,6 @@ impl Planner {
                 stages: Stages::default(),
             }
         }))
-    }
-
-    /// A search over cells, on obstacles grown by half the vehicle's width.
-    fn walk(
-        &mut self,
-        request: &Request,
-        limits: &mut Limits,
-        search: impl FnOnce(
-            &MoveMasks,
-            [Cell; 2],
-            &mut AstarWorkspace,
-            &mut Limits,
-        ) -> Result<GridSearch, SearchError>,
-    ) -> Result<Found, SearchError> {
-        let Self {
-            obstacles,
-            vehicle,
-            config,
-            grid,
-            ..
-        } = self;
-        let (moves, workspace) = grid.get_or_insert_with(|| {
-            let moves = MoveMasks::new(
-                &blocked(obstacles, vehicle),
-                config.grid_search.diagonal_rule,
-            );
-            (moves, AstarWorkspace::new())
-        });
-        limits.tell(&Event::SearchStarted);
-        let frame = obstacles.frame();
-        let cell = |pose: Pose2| frame.cell_at(pose.position()).unwrap_or_default();
-        let found = search(
-            moves,
-            [cell(request.start), cell(request.goal)],
-            workspace,
-            limits,
-        )?;
-        let points = waypoints(&found.path, request, |cell| frame.center(cell));
-        Ok(Found {
-            path: CurvePath::from_polyline(&points),
-            stages: Stages {
-                grid_path: Some(found.path),
-                ..Stages::default()
-            },
-        })
     }
 
     /// Lets the judge decide, and says why where there is no path.
@@ -220,32 +164,6 @@ impl Planner {
     }
 }
 
-/// Cells on which the vehicle's middle may not be: within half its width of an obstacle.
-fn blocked(obstacles: &ObstacleMap, vehicle: &Vehicle) -> BitGrid {
-    let half_width_cells = 0.5 * vehicle.width_m() / obstacles.frame().resolution_m();
-    let limit = f64::from(obstacles.distance().truncation_cells()) - 0.5;
-    let grown = obstacles.distance().within(half_width_cells.min(limit));
-    grown.unwrap_or_else(|| obstacles.lethal().clone())
-}
-
-fn astar_path(
-    moves: &MoveMasks,
-    [start, goal]: [Cell; 2],
-    workspace: &mut AstarWorkspace,
-    limits: &mut Limits,
-) -> Result<GridSearch, SearchError> {
-    astar(moves, start, goal, workspace, limits)
-}
-
-fn field_path(
-    moves: &MoveMasks,
-    [start, goal]: [Cell; 2],
-    _: &mut AstarWorkspace,
-    limits: &mut Limits,
-) -> Result<GridSearch, SearchError> {
-    GoalField::new(moves, &[goal], limits)?.path(moves, start)
-}
-
 fn curve(start: Pose2, arcs: &[Arc]) -> CurvePath {
     let mut path = CurvePath::new(start);
     for arc in arcs {
@@ -257,30 +175,4 @@ fn curve(start: Pose2, arcs: &[Arc]) -> CurvePath {
         path.push(arc.curvature_per_m, arc.length_m(), direction);
     }
     path
-}
-
-/// Start, the cells where the direction changes, goal; within the end cells straight lines join
-/// the poses to the centers.
-fn waypoints(path: &GridPath, request: &Request, center: impl Fn(Cell) -> Point2) -> Vec<Point2> {
-    let cells = &path.cells;
-    let step = |a: Cell, b: Cell| {
-        (
-            i64::from(b.col) - i64::from(a.col),
-            i64::from(b.row) - i64::from(a.row),
-        )
-    };
-    let corner = |i: usize| {
-        i == 0
-            || i + 1 == cells.len()
-            || step(cells[i - 1], cells[i]) != step(cells[i], cells[i + 1])
-    };
-    let mut points = vec![request.start.position()];
-    points.extend(
-        (0..cells.len())
-            .filter(|&i| corner(i))
-            .map(|i| center(cells[i])),
-    );
-    points.push(request.goal.position());
-    points.dedup_by(|a, b| a.distance(*b) < 1e-9);
-    points
 }

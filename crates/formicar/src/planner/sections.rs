@@ -7,13 +7,15 @@ use serde::{Deserialize, Deserializer, Serializer};
 use serde_json::{Map, Value};
 
 /// Names of the sections.
-const SECTIONS: [&str; 6] = [
+const SECTIONS: [&str; 8] = [
     "hybrid_astar",
     "grid_search",
+    "improved_astar",
     "layers",
     "colony",
-    "smoothing",
     "chords",
+    "evolution",
+    "smoothing",
 ];
 /// The key of the planner's name.
 const PLANNER: &str = "planner";
@@ -27,22 +29,31 @@ pub(super) fn write<S: Serializer>(
 ) -> Result<S::Ok, S::Error> {
     let mut map = serializer.serialize_map(None)?;
     map.serialize_entry(PLANNER, &config.planner)?;
-    match config.planner {
-        PlannerName::HybridAstar => map.serialize_entry(SECTIONS[0], &config.hybrid_astar)?,
-        PlannerName::Astar | PlannerName::Dijkstra => {
-            map.serialize_entry(SECTIONS[1], &config.grid_search)?;
-        }
-        PlannerName::Faco2024 => {
-            map.serialize_entry(SECTIONS[5], &config.chords)?;
-            map.serialize_entry(SECTIONS[4], &config.smoothing)?;
-        }
-        _ => {
-            map.serialize_entry(SECTIONS[2], &config.layers)?;
-            map.serialize_entry(SECTIONS[3], &config.colony)?;
-            map.serialize_entry(SECTIONS[4], &config.smoothing)?;
+    for &name in sections_of(config.planner) {
+        match name {
+            "hybrid_astar" => map.serialize_entry(name, &config.hybrid_astar)?,
+            "grid_search" => map.serialize_entry(name, &config.grid_search)?,
+            "improved_astar" => map.serialize_entry(name, &config.improved_astar)?,
+            "layers" => map.serialize_entry(name, &config.layers)?,
+            "colony" => map.serialize_entry(name, &config.colony)?,
+            "chords" => map.serialize_entry(name, &config.chords)?,
+            "evolution" => map.serialize_entry(name, &config.evolution)?,
+            _ => map.serialize_entry(name, &config.smoothing)?,
         }
     }
     map.end()
+}
+
+/// The sections that a planner uses.
+fn sections_of(planner: PlannerName) -> &'static [&'static str] {
+    match planner {
+        PlannerName::HybridAstar => &["hybrid_astar"],
+        PlannerName::Astar | PlannerName::Dijkstra => &["grid_search", "smoothing"],
+        PlannerName::ImprovedAstar => &["grid_search", "improved_astar", "smoothing"],
+        PlannerName::Ga | PlannerName::Aga => &["grid_search", "evolution", "smoothing"],
+        PlannerName::Faco2024 => &["chords", "smoothing"],
+        _ => &["layers", "colony", "smoothing"],
+    }
 }
 
 /// Reads what is given onto the defaults of the planner that is named.
@@ -61,12 +72,14 @@ pub(super) fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Planner
     let defaults = PlannerConfig::of(planner);
     Ok(PlannerConfig {
         planner,
-        hybrid_astar: section(&mut given, SECTIONS[0], defaults.hybrid_astar)?,
-        grid_search: section(&mut given, SECTIONS[1], defaults.grid_search)?,
-        layers: section(&mut given, SECTIONS[2], defaults.layers)?,
-        colony: section(&mut given, SECTIONS[3], defaults.colony)?,
-        smoothing: section(&mut given, SECTIONS[4], defaults.smoothing)?,
-        chords: section(&mut given, SECTIONS[5], defaults.chords)?,
+        hybrid_astar: section(&mut given, "hybrid_astar", defaults.hybrid_astar)?,
+        grid_search: section(&mut given, "grid_search", defaults.grid_search)?,
+        improved_astar: section(&mut given, "improved_astar", defaults.improved_astar)?,
+        layers: section(&mut given, "layers", defaults.layers)?,
+        colony: section(&mut given, "colony", defaults.colony)?,
+        chords: section(&mut given, "chords", defaults.chords)?,
+        evolution: section(&mut given, "evolution", defaults.evolution)?,
+        smoothing: section(&mut given, "smoothing", defaults.smoothing)?,
     })
 }
 

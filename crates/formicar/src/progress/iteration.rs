@@ -5,9 +5,11 @@ use crate::path::GridPath;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What one iteration of a colony came to.
+/// What one iteration of a colony came to, or one generation of a population.
 ///
 /// Costs are those of the colony's objective; lengths are in cells, as the objective counts them.
+/// Of a population, ants are individuals and those that arrived the ones that are free of
+/// collisions; costs are theirs without a penalty, and there is neither evaporation nor pheromone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct IterationRecord {

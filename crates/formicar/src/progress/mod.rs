@@ -2,9 +2,11 @@
 
 mod frames;
 mod iteration;
+mod population;
 
 pub use frames::{AntFrame, AntFrames, Traffic, pheromone_by_cell};
 pub use iteration::{AntWays, ColonyView, IterationRecord, Pheromone, path_of};
+pub use population::PopulationView;
 
 use crate::scenario::ErrorCode;
 use serde::{Deserialize, Serialize};
@@ -52,6 +54,8 @@ pub enum Event<'a> {
     },
     /// A colony ended an iteration.
     Iteration(ColonyView<'a>),
+    /// A population ended a generation.
+    Generation(PopulationView<'a>),
 }
 
 /// How a run ended.

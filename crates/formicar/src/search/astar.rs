@@ -3,6 +3,7 @@
 use super::bucket_queue::BucketQueue;
 use super::cost::{MAX_COST, NO_STEP, ONWARD_STEPS, STEP_COSTS, octile};
 use super::grid_search::{GridSearch, SearchError, check_end};
+use super::open_queue::{KeyHeap, OpenQueue};
 use crate::map::{Cell, MoveMasks, STEPS};
 use crate::progress::{Limits, Status};
 
@@ -14,8 +15,53 @@ use crate::progress::{Limits, Status};
 pub struct AstarWorkspace {
     /// Per cell the query that reached it last, the cost from its start, and the last step.
     states: Vec<u64>,
-    queue: BucketQueue,
+    queues: Queues,
     query: u64,
+}
+
+/// What cells may wait in: which queue depends on what is known of the keys.
+#[derive(Clone, Debug)]
+pub(super) struct Queues {
+    /// For keys that only grow.
+    pub(super) buckets: BucketQueue,
+    /// For all others.
+    pub(super) heap: KeyHeap,
+}
+
+/// What leads a search: the key of a cell by its cost from the start, least first.
+pub(super) trait Guide {
+    /// What cells wait in.
+    type Queue: OpenQueue;
+
+    /// The key of a cell reached at a cost.
+    fn key(&self, cost: u32, cell: Cell) -> <Self::Queue as OpenQueue>::Key;
+
+    /// The cost at which a cell was reached, by its key.
+    fn cost(&self, key: <Self::Queue as OpenQueue>::Key, cell: Cell) -> u32;
+
+    /// The queue for such keys.
+    fn queue(queues: &mut Queues) -> &mut Self::Queue;
+}
+
+/// The octile distance to the goal: consistent, so that keys only grow.
+struct Octile {
+    goal: Cell,
+}
+
+impl Guide for Octile {
+    type Queue = BucketQueue;
+
+    fn key(&self, cost: u32, cell: Cell) -> u32 {
+        cost.wrapping_add(octile(cell, self.goal))
+    }
+
+    fn cost(&self, key: u32, cell: Cell) -> u32 {
+        key.wrapping_sub(octile(cell, self.goal))
+    }
+
+    fn queue(queues: &mut Queues) -> &mut BucketQueue {
+        &mut queues.buckets
+    }
 }
 
 /// Bits of a state: the query's number on top, then the cost from the start, complemented, then
@@ -37,18 +83,20 @@ impl AstarWorkspace {
     pub fn new() -> Self {
         Self {
             states: Vec::new(),
-            queue: BucketQueue::new(),
+            queues: Queues {
+                buckets: BucketQueue::new(),
+                heap: KeyHeap::default(),
+            },
             query: 0,
         }
     }
 
-    fn begin(&mut self, n_cells: usize, key: u32) {
+    fn begin(&mut self, n_cells: usize) {
         if self.states.len() < n_cells || self.query == MAX_QUERY {
             self.states = vec![0; n_cells.max(self.states.len())];
             self.query = 0;
         }
         self.query += 1;
-        self.queue.reset(key);
     }
 
     /// The state of a cell reached at a cost, with room for the step.
@@ -87,20 +135,39 @@ pub fn astar(
     workspace: &mut AstarWorkspace,
     limits: &mut Limits,
 ) -> Result<GridSearch, SearchError> {
+    search(moves, [start, goal], &Octile { goal }, workspace, limits)
+}
+
+/// A path between two cells along allowed moves, by the keys of a guide.
+///
+/// A cell that is reached at less cost than before waits again, so that every guide is served:
+/// until the goal comes up, some cell of a shortest path, reached at the least cost there is,
+/// waits. On open ground that holds for [`ONWARD_STEPS`] too: whichever of the last steps of
+/// shortest ways to a cell is straight, or else diagonal, is dropped at the cell before it only
+/// where a strictly shorter way exists.
+pub(super) fn search<G: Guide>(
+    moves: &MoveMasks,
+    [start, goal]: [Cell; 2],
+    guide: &G,
+    workspace: &mut AstarWorkspace,
+    limits: &mut Limits,
+) -> Result<GridSearch, SearchError> {
     check_end(moves, "start", start)?;
     check_end(moves, "goal", goal)?;
-    let first_key = octile(start, goal);
-    workspace.begin(moves.as_slice().len(), first_key);
-    workspace.states[moves.index(start)] = workspace.state(0) | NO_STEP as u64;
-    workspace.queue.push(moves.index(start) as u32, first_key);
+    workspace.begin(moves.as_slice().len());
+    let (first, first_key) = (moves.index(start), guide.key(0, start));
+    workspace.states[first] = workspace.state(0) | NO_STEP as u64;
+    let queue = G::queue(&mut workspace.queues);
+    queue.reset(first_key);
+    queue.push(first as u32, first_key);
     let expansion = Expansion {
         masks: moves.as_slice(),
         offsets: moves.offsets(),
-        goal,
+        guide,
     };
-    while let Some((index, key)) = workspace.queue.pop() {
+    while let Some((index, key)) = G::queue(&mut workspace.queues).pop() {
         let cell = moves.cell(index as usize);
-        let cost = key.wrapping_sub(octile(cell, goal));
+        let cost = guide.cost(key, cell);
         if workspace.states[index as usize] & !STEP_MASK != workspace.state(cost) {
             continue;
         }
@@ -117,13 +184,13 @@ pub fn astar(
 }
 
 /// What is the same for every cell of a query.
-struct Expansion<'a> {
+struct Expansion<'a, G> {
     masks: &'a [u8],
     offsets: [isize; 8],
-    goal: Cell,
+    guide: &'a G,
 }
 
-impl Expansion<'_> {
+impl<G: Guide> Expansion<'_, G> {
     /// Reaches out from a cell to its neighbors.
     fn expand(&self, workspace: &mut AstarWorkspace, index: usize, cell: Cell, cost: u32) {
         let mut steps = self.masks[index];
@@ -139,8 +206,8 @@ impl Expansion<'_> {
             let state = workspace.state(next_cost);
             if state > workspace.states[next] | STEP_MASK {
                 workspace.states[next] = state | step as u64;
-                let key = next_cost.wrapping_add(octile(moved(cell, step), self.goal));
-                workspace.queue.push(next as u32, key);
+                let key = self.guide.key(next_cost, moved(cell, step));
+                G::queue(&mut workspace.queues).push(next as u32, key);
             }
         }
     }

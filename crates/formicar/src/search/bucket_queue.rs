@@ -1,5 +1,7 @@
 //! A priority queue for integer keys that only grow, and never by much at once.
 
+use super::open_queue::OpenQueue;
+
 /// Keys at or above the smallest queued one, by less than this, can be told apart.
 const N_BUCKETS: u32 = 1 << 12;
 
@@ -36,28 +38,6 @@ impl BucketQueue {
         }
     }
 
-    /// Empties the queue; keys will start at `key`. Memory is kept.
-    pub(super) fn reset(&mut self, key: u32) {
-        self.heads.fill(NONE);
-        self.entries.clear();
-        self.free = NONE;
-        self.occupied = [0; 64];
-        self.occupied_words = 0;
-        self.key = key;
-    }
-
-    /// Queues an item; the key, modulo 2^32, is less than [`N_BUCKETS`] above the last one popped.
-    pub(super) fn push(&mut self, item: u32, key: u32) {
-        let bucket = (key % N_BUCKETS) as usize;
-        let entry = Entry {
-            item,
-            next: self.heads[bucket],
-        };
-        self.heads[bucket] = self.store(entry);
-        self.occupied[bucket / 64] |= 1 << (bucket % 64);
-        self.occupied_words |= 1 << (bucket / 64);
-    }
-
     fn store(&mut self, entry: Entry) -> u32 {
         if self.free == NONE {
             self.entries.push(entry);
@@ -67,26 +47,6 @@ impl BucketQueue {
         self.free = self.entries[place as usize].next;
         self.entries[place as usize] = entry;
         place
-    }
-
-    /// Takes out an item of the smallest key, with the key.
-    pub(super) fn pop(&mut self) -> Option<(u32, u32)> {
-        let bucket = self.next_bucket()?;
-        self.key = self
-            .key
-            .wrapping_add((bucket as u32).wrapping_sub(self.key) % N_BUCKETS);
-        let place = self.heads[bucket];
-        let Entry { item, next } = self.entries[place as usize];
-        self.entries[place as usize].next = self.free;
-        self.free = place;
-        self.heads[bucket] = next;
-        if next == NONE {
-            self.occupied[bucket / 64] &= !(1 << (bucket % 64));
-            if self.occupied[bucket / 64] == 0 {
-                self.occupied_words &= !(1 << (bucket / 64));
-            }
-        }
-        Some((item, self.key))
     }
 
     /// The first occupied bucket from the current key on, around the ring.
@@ -104,6 +64,52 @@ impl BucketQueue {
         let turned = self.occupied_words.rotate_right(word as u32 + 1);
         let word = (word + 1 + turned.trailing_zeros() as usize) % 64;
         Some(word * 64 + self.occupied[word].trailing_zeros() as usize)
+    }
+}
+
+impl OpenQueue for BucketQueue {
+    type Key = u32;
+
+    /// Empties the queue; keys will start at `key`. Memory is kept.
+    fn reset(&mut self, key: u32) {
+        self.heads.fill(NONE);
+        self.entries.clear();
+        self.free = NONE;
+        self.occupied = [0; 64];
+        self.occupied_words = 0;
+        self.key = key;
+    }
+
+    /// Queues an item; the key, modulo 2^32, is less than [`N_BUCKETS`] above the last one popped.
+    fn push(&mut self, item: u32, key: u32) {
+        let bucket = (key % N_BUCKETS) as usize;
+        let entry = Entry {
+            item,
+            next: self.heads[bucket],
+        };
+        self.heads[bucket] = self.store(entry);
+        self.occupied[bucket / 64] |= 1 << (bucket % 64);
+        self.occupied_words |= 1 << (bucket / 64);
+    }
+
+    /// Takes out an item of the smallest key, with the key.
+    fn pop(&mut self) -> Option<(u32, u32)> {
+        let bucket = self.next_bucket()?;
+        self.key = self
+            .key
+            .wrapping_add((bucket as u32).wrapping_sub(self.key) % N_BUCKETS);
+        let place = self.heads[bucket];
+        let Entry { item, next } = self.entries[place as usize];
+        self.entries[place as usize].next = self.free;
+        self.free = place;
+        self.heads[bucket] = next;
+        if next == NONE {
+            self.occupied[bucket / 64] &= !(1 << (bucket % 64));
+            if self.occupied[bucket / 64] == 0 {
+                self.occupied_words &= !(1 << (bucket / 64));
+            }
+        }
+        Some((item, self.key))
     }
 }
 

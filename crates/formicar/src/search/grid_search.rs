@@ -2,6 +2,7 @@
 
 use super::cost::{DIAGONAL_COST, MAX_COST, STRAIGHT_COST};
 use crate::map::{Cell, MoveMasks};
+use crate::numeric::OutOfRange;
 use crate::path::GridPath;
 use crate::progress::Status;
 use std::f64::consts::SQRT_2;
@@ -38,7 +39,7 @@ impl GridSearch {
 }
 
 /// Why a search on a grid has no result.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SearchError {
     /// An end off the grid.
@@ -69,6 +70,9 @@ pub enum SearchError {
         /// The limit in straight steps.
         max_cells: u32,
     },
+    /// A parameter outside its range.
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
     /// The search ended without a path.
     #[error("the search ended: {}", status.name())]
     Ended {

@@ -6,6 +6,8 @@ mod cost;
 mod goal_field;
 mod grid_search;
 mod hybrid_astar;
+mod improved_astar;
+mod open_queue;
 mod passage;
 
 pub use astar::{AstarWorkspace, astar};
@@ -14,4 +16,5 @@ pub use goal_field::GoalField;
 pub(crate) use grid_search::check_end;
 pub use grid_search::{GridSearch, SearchError};
 pub use hybrid_astar::{HybridAstarConfig, HybridProblem, hybrid_astar};
+pub use improved_astar::{ImprovedAstarConfig, improved_astar};
 pub use passage::{Passage, widest_passage};

@@ -1,0 +1,21 @@
+//! A genetic algorithm over via points: polylines that breed (the rivals GA and AGA of Li 2024).
+//!
+//! An individual is a polyline over cells: start, via points, goal. It costs what
+//! [`SteeringCost`](crate::objective::SteeringCost) tells, and a penalty for what of it runs
+//! through blocked cells. Each generation the best stay, and tournaments choose the parents of
+//! the others, which cross over at one point and mutate. `ga` begins at random, `aga` with a share
+//! of its population about the shortest path over cells; all else is the same.
+
+mod config;
+mod engine;
+mod fitness;
+mod ground;
+mod initial;
+mod mutation;
+mod obstruction;
+mod problem;
+mod selection;
+
+pub use config::{AstarSeeded, EvolutionConfig, InitialPopulation, Mutations};
+pub use engine::{EvolutionRun, run};
+pub use problem::EvolutionProblem;

@@ -1,0 +1,181 @@
+//! How children change: a via point moves, comes, goes, or settles between its neighbors.
+
+use super::config::EvolutionConfig;
+use super::ground::Ground;
+use crate::map::Cell;
+use crate::numeric::RandomStream;
+
+/// Changes a polyline by each mutation that its probability calls for.
+pub(super) fn mutate(
+    line: &mut Vec<Cell>,
+    config: &EvolutionConfig,
+    ground: &Ground,
+    random: &mut RandomStream,
+) {
+    let chances = &config.mutation;
+    if random.unit() < chances.r#move {
+        move_one(
+            line,
+            chances.move_reach * ground.side_cells(),
+            ground,
+            random,
+        );
+    }
+    if random.unit() < chances.insert && n_via(line) < config.n_via_max as usize {
+        insert(line, ground, random);
+    }
+    if random.unit() < chances.delete && n_via(line) > config.n_via_min as usize {
+        line.remove(any_via(line, random));
+    }
+    if random.unit() < chances.smooth {
+        smooth(line, ground, random);
+    }
+}
+
+/// A via point moves; where a few draws find no place, it stays.
+fn move_one(line: &mut [Cell], reach_cells: f64, ground: &Ground, random: &mut RandomStream) {
+    let which = any_via(line, random);
+    if let Some(cell) = ground.near(place(line[which]), reach_cells, random) {
+        line[which] = cell;
+    }
+}
+
+/// A via point comes in beside the middle of a segment, at most half its length off.
+fn insert(line: &mut Vec<Cell>, ground: &Ground, random: &mut RandomStream) {
+    let after = 1 + random.below(line.len() - 1);
+    let (a, b) = (place(line[after - 1]), place(line[after]));
+    let middle = (0.5 * (a.0 + b.0), 0.5 * (a.1 + b.1));
+    let (dx, dy) = (b.0 - a.0, b.1 - a.1);
+    let reach_cells = 0.5 * (dx * dx + dy * dy).sqrt();
+    if let Some(cell) = ground.near(middle, reach_cells, random) {
+        line.insert(after, cell);
+    }
+}
+
+/// A via point goes halfway to the middle between its neighbors, if that can be reached.
+fn smooth(line: &mut [Cell], ground: &Ground, random: &mut RandomStream) {
+    let which = any_via(line, random);
+    let [before, here, after] = [which - 1, which, which + 1].map(|i| place(line[i]));
+    let settled = |before: f64, here: f64, after: f64| 0.25 * before + 0.5 * here + 0.25 * after;
+    let (col, row) = (
+        settled(before.0, here.0, after.0),
+        settled(before.1, here.1, after.1),
+    );
+    if let Some(cell) = ground.at(col, row) {
+        line[which] = cell;
+    }
+}
+
+fn n_via(line: &[Cell]) -> usize {
+    line.len() - 2
+}
+
+/// One of the via points, of which there is always one.
+fn any_via(line: &[Cell], random: &mut RandomStream) -> usize {
+    1 + random.below(n_via(line))
+}
+
+/// A cell in columns and rows.
+fn place(cell: Cell) -> (f64, f64) {
+    (f64::from(cell.col), f64::from(cell.row))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::evolution::Mutations;
+    use crate::map::{BitGrid, DiagonalRule};
+    use crate::numeric::Seed;
+
+    fn mutated(line: &[Cell], mutation: Mutations, seed: u64) -> Vec<Cell> {
+        let config = EvolutionConfig {
+            n_via_max: 3,
+            mutation,
+            ..EvolutionConfig::ga()
+        };
+        let ground = Ground::new(&BitGrid::new(40, 20), DiagonalRule::NoObstacles, line[0]);
+        let mut line = line.to_vec();
+        mutate(&mut line, &config, &ground, &mut Seed(seed).stream([0, 0]));
+        line
+    }
+
+    const NEVER: Mutations = Mutations {
+        r#move: 0.0,
+        insert: 0.0,
+        delete: 0.0,
+        smooth: 0.0,
+        move_reach: 0.1,
+    };
+
+    fn line(via: &[(u32, u32)]) -> Vec<Cell> {
+        let places = [&[(0, 0)], via, &[(39, 19)]].concat();
+        places
+            .iter()
+            .map(|&(col, row)| Cell::new(col, row))
+            .collect()
+    }
+
+    #[test]
+    fn each_mutation_does_its_own() {
+        let three = line(&[(5, 15), (20, 10), (30, 2)]);
+        let differing = |a: &[Cell], b: &[Cell]| a.iter().zip(b).filter(|(a, b)| a != b).count();
+        assert_eq!(mutated(&three, NEVER, 1), three);
+        for seed in 0..20 {
+            let moved = mutated(
+                &three,
+                Mutations {
+                    r#move: 1.0,
+                    ..NEVER
+                },
+                seed,
+            );
+            assert!(moved.len() == 5 && differing(&moved, &three) <= 1);
+            let full = mutated(
+                &three,
+                Mutations {
+                    insert: 1.0,
+                    ..NEVER
+                },
+                seed,
+            );
+            assert_eq!(full, three, "three are the most");
+            let fewer = mutated(
+                &three,
+                Mutations {
+                    delete: 1.0,
+                    ..NEVER
+                },
+                seed,
+            );
+            assert!(fewer.len() == 4 && fewer.iter().all(|cell| three.contains(cell)));
+            let one = line(&[(5, 15)]);
+            let least = mutated(
+                &one,
+                Mutations {
+                    delete: 1.0,
+                    ..NEVER
+                },
+                seed,
+            );
+            assert_eq!(least, one, "one is the least");
+            let more = mutated(
+                &one,
+                Mutations {
+                    insert: 1.0,
+                    ..NEVER
+                },
+                seed,
+            );
+            assert!(more.len() == 4 && more.contains(&one[1]));
+            let smooth = mutated(
+                &one,
+                Mutations {
+                    smooth: 1.0,
+                    ..NEVER
+                },
+                seed,
+            );
+            assert_eq!(smooth, line(&[(12, 12)]));
+        }
+    }
+}
