@@ -56,7 +56,11 @@ const MEASURES: [Measure; 4] = [
 
 /// The tables of the runs of some variants, the first of which the others are compared with.
 pub(super) fn section(drives: &[Drive], variants: &[Variant]) -> Section {
-    let paired = MEASURES.map(|measure| paired(drives, variants, &measure));
+    let compared = variants.len() > 1;
+    let paired = MEASURES
+        .iter()
+        .filter(|_| compared)
+        .map(|measure| paired(drives, variants, measure));
     let tables = [outcomes(drives, variants)].into_iter().chain(paired);
     Section {
         heading: format!("What each term of {PROPOSED} brings"),

@@ -3,7 +3,7 @@
 use super::drive::Exhibit;
 use crate::experiment::Ground;
 use crate::report::Figure;
-use formicar::geometry::Point2;
+use formicar::geometry::{Point2, Pose2};
 use formicar::render::{Dash, LineStyle, Picture, PoseMark, Scene, palette};
 use formicar::validation::{Report, ViolationKind};
 
@@ -12,10 +12,37 @@ const MARK_M: f64 = 1.2;
 /// Marks closer than this are one, metres.
 const APART_M: f64 = 1.0;
 
-/// A method's path: the polyline before corners are rounded, the curve that was judged, and the
-/// places where the judge refused it.
-pub(super) fn path_figure(ground: &Ground, exhibit: &Exhibit) -> Figure {
-    let mut scene = Scene::new(&ground.grid);
+/// Ground around the paths that is shown, metres.
+const MARGIN_M: f64 = 6.0;
+
+/// The part of the map that holds the paths of all methods.
+pub(super) fn surroundings(ground: &Ground, exhibits: &[Exhibit]) -> (Point2, Point2) {
+    let ends = [ground.request.start, ground.request.goal].map(Pose2::position);
+    let natives = exhibits
+        .iter()
+        .flat_map(|exhibit| exhibit.native.iter().copied());
+    let judged = exhibits
+        .iter()
+        .filter_map(|exhibit| exhibit.judged.as_ref());
+    let curves = judged.flat_map(|(path, _)| path.sample(1.0));
+    let curves = curves.map(|sample| sample.pose.position());
+    let points = ends.into_iter().chain(natives).chain(curves);
+    let (low, high) = points.fold((ends[0], ends[0]), |(low, high), p| {
+        let low = Point2::new(low.x.min(p.x), low.y.min(p.y));
+        (low, Point2::new(high.x.max(p.x), high.y.max(p.y)))
+    });
+    let margin = Point2::new(MARGIN_M, MARGIN_M);
+    (low - margin, high + margin)
+}
+
+/// A method's path in a part of the map: the polyline before corners are rounded, the curve that
+/// was judged, and the places where the judge refused it.
+pub(super) fn path_figure(
+    ground: &Ground,
+    exhibit: &Exhibit,
+    (low, high): (Point2, Point2),
+) -> Figure {
+    let mut scene = Scene::window(&ground.grid, low, high);
     let places = exhibit
         .judged
         .as_ref()
@@ -23,7 +50,9 @@ pub(super) fn path_figure(ground: &Ground, exhibit: &Exhibit) -> Figure {
     if let Some((path, _)) = &exhibit.judged {
         scene.curve(path);
     }
-    scene.polyline(&exhibit.native, &line("before rounding", 1.2));
+    if !exhibit.native.is_empty() {
+        scene.polyline(&exhibit.native, &line("before rounding", 1.2));
+    }
     scene.pose(ground.request.start, &ground.vehicle, PoseMark::Start);
     scene.pose(ground.request.goal, &ground.vehicle, PoseMark::Goal);
     for (i, &place) in places.iter().enumerate() {
@@ -95,7 +124,7 @@ fn cross(scene: &mut Scene, place: Point2, label: &str) {
 fn line(label: &str, width_px: f64) -> LineStyle {
     LineStyle {
         label: label.to_owned(),
-        color: palette::REVERSE,
+        color: palette::WAYPOINTS.mix(palette::PAGE, 0.4),
         width_px,
         dash: Dash::Solid,
     }

@@ -243,8 +243,9 @@ impl Plan {
     }
 
     fn figures(&self, findings: &Findings) -> Vec<Section> {
+        let part = figures::surroundings(&self.ground, &findings.exhibits);
         let paths = findings.exhibits.iter();
-        let paths = paths.map(|exhibit| figures::path_figure(&self.ground, exhibit));
+        let paths = paths.map(|exhibit| figures::path_figure(&self.ground, exhibit, part));
         let mut sections = vec![Section {
             heading: "Paths: figures 5 to 11".to_owned(),
             blocks: paths.map(Block::Figure).collect(),

@@ -106,14 +106,17 @@ fn write_section(
 }
 
 fn write_table(text: &mut String, table: &Table, named: &[Vec<Vec<NamedPart>>]) {
+    let (key, caption) = (&table.key, inline(&table.caption));
+    if !caption.is_empty() {
+        let _ = writeln!(
+            text,
+            "<p class=\"caption\" id=\"about-{key}\">{caption}</p>"
+        );
+    }
     let _ = writeln!(
         text,
-        "<div class=\"table\"><table id=\"table-{}\">",
-        table.key
+        "<div class=\"table\"><table id=\"table-{key}\" aria-describedby=\"about-{key}\">"
     );
-    if !table.caption.is_empty() {
-        let _ = writeln!(text, "<caption>{}</caption>", inline(&table.caption));
-    }
     text.push_str("<thead><tr>");
     for name in &table.heading {
         let _ = write!(text, "<th scope=\"col\">{}</th>", inline(name));
@@ -219,7 +222,7 @@ mod tests {
         });
         for part in [
             "<title>A &amp; B</title>",
-            "<caption>Of <code>x</code> &lt; y.</caption>",
+            "<p class=\"caption\" id=\"about-t\">Of <code>x</code> &lt; y.</p>",
             "<th scope=\"row\">&lt;a&gt;</th><td><data value=\"pTAAboveWhat\">2.0</data></td>",
             "<b>Figure 1.</b> A line.",
             "<dt>seed</dt><dd>0</dd>",

@@ -54,6 +54,18 @@ impl Scene {
         Self::part(map, frame_bounds(map.frame()), Layout::Page)
     }
 
+    /// The part of a map between a lowest and a highest world coordinate.
+    pub fn window(map: &OccupancyGrid, low: Point2, high: Point2) -> Self {
+        let whole = frame_bounds(map.frame());
+        let low = Point2::new(low.x.max(whole.0.x), low.y.max(whole.0.y));
+        let high = Point2::new(high.x.min(whole.1.x), high.y.min(whole.1.y));
+        if low.x < high.x && low.y < high.y {
+            Self::part(map, (low, high), Layout::Page)
+        } else {
+            Self::new(map)
+        }
+    }
+
     /// What lies between a lowest and a highest world coordinate.
     pub(super) fn part(map: &OccupancyGrid, bounds: (Point2, Point2), layout: Layout) -> Self {
         let (low, high) = bounds;
