@@ -60,6 +60,11 @@ impl Chain {
                 has_gained = true;
                 continue;
             }
+            let merged = self.merged(corner);
+            if merged.is_some_and(|chain| self.take_if_cheaper(task, chain, corner - 1..=corner + 1)) {
+                has_gained = true;
+                continue;
+            }
             for to in self.moves(corner, step_m) {
                 let mut moved = self.clone();
                 moved.points[corner] = to;
@@ -80,6 +85,27 @@ impl Chain {
             let mut chain = self.clone();
             chain.points.remove(corner);
             chain.fillets.remove(corner - 1);
+            chain.tightness_m.remove(corner);
+            chain
+        })
+    }
+
+    /// The chain with a corner and the next one merged where the legs on both sides meet; none
+    /// where these do not meet ahead.
+    fn merged(&self, corner: usize) -> Option<Self> {
+        if corner + 2 >= self.points.len() {
+            return None;
+        }
+        let [before, after] = [corner - 1, corner + 1].map(|leg| Point2::unit(self.heading_rad(leg)));
+        let between = self.points[corner + 1] - self.points[corner];
+        let ahead_m = between.cross(after) / before.cross(after);
+        let back_m = between.cross(before) / before.cross(after);
+        let meets = ahead_m.is_finite() && ahead_m > 0.0 && back_m < 0.0;
+        meets.then(|| {
+            let mut chain = self.clone();
+            chain.points[corner] = self.points[corner] + before * ahead_m;
+            chain.points.remove(corner + 1);
+            chain.fillets.remove(corner);
             chain.tightness_m.remove(corner);
             chain
         })

@@ -15,6 +15,8 @@ const LEG_RADII: f64 = 100.0;
 const CROWDED_SHARE: f64 = 0.95;
 /// How far from the ends curves to given headings begin and end, turning radii.
 const CURVE_REACH_RADII: f64 = 5.0;
+/// Where the first corner may be on the line of the start's heading, turning radii.
+const LEAD_RADII: [f64; 7] = [0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0];
 /// Radii of these curves, in turning radii.
 const CURVE_RADII: [f64; 3] = [1.0, 2.0, 4.0];
 /// How many of these curves are tried between two poses, cheapest first.
@@ -45,8 +47,13 @@ pub(in super::super) fn widest(task: &Task, polyline: &[Point2]) -> Option<WideW
         task.obstacles.frame().resolution_m(),
     );
     let measures = [LEG_RADII, config.corner_radii].map(|radii| radii * radius_m);
+    let lead = |start: &Pose2| {
+        LEAD_RADII.map(|radii| start.advance(0.0, radii * radius_m).position())
+    };
+    let starts = task.ends.starts.iter().take(usize::from(!task.ends.start_is_free));
+    let leads: Vec<Point2> = starts.flat_map(lead).collect();
     let mut search = Search {
-        sights: Sights::new(polyline, map, measures)?,
+        sights: Sights::new(polyline, &leads, map, measures)?,
         task,
         open: OpenList::default(),
         legs: Vec::new(),
@@ -127,15 +134,15 @@ struct Search<'a> {
 impl Search<'_> {
     /// Opens what begins at the start.
     fn open_start(&mut self) {
+        for sight in self.sights.from(0).to_vec() {
+            self.close(0, sight, Reached::AtStart, 0.0, 0.0);
+        }
         if self.task.ends.start_is_free {
-            for sight in self.sights.from(0).to_vec() {
-                self.close(0, sight, Reached::AtStart, 0.0, 0.0);
-            }
             return;
         }
         let corner_m = self.corner_m();
         let start = self.sights.points[0];
-        let near = (1..self.sights.last()).filter(|&i| self.is_near(start, i));
+        let near = self.sights.after_start().filter(|&i| self.is_near(start, i));
         for from in near.collect::<Vec<_>>() {
             let least = start.distance(self.sights.points[from]) + corner_m;
             for sight in self.sights.from(from).to_vec() {
@@ -397,7 +404,7 @@ impl Search<'_> {
             points,
             fillets: fillets.collect(),
             tightness_m: vec![0.0; legs.len()],
-            first_is_fixed: lead.is_some(),
+            first_is_fixed: !self.task.ends.start_is_free,
             last_is_fixed: tail.is_some(),
         };
         chain.refine(self.task);

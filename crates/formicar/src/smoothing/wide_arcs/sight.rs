@@ -17,9 +17,10 @@ pub(super) struct Sight {
     pub(super) heading_rad: f64,
 }
 
-/// The points of a polyline with what each sees.
+/// The points of a polyline, after its first one some leads, with what each sees.
 pub(super) struct Sights {
     pub(super) points: Vec<Point2>,
+    n_leads: usize,
     all: Vec<Sight>,
     /// Of each point, its part of `all`.
     ranges: Vec<Range<usize>>,
@@ -29,9 +30,11 @@ pub(super) struct Sights {
 
 impl Sights {
     /// None where the polyline does not move. Points see each other over at most `reach_m` where
-    /// no lethal cell lies between; a corner costs `corner_m`.
+    /// no lethal cell lies between; a corner costs `corner_m`. Leads are where the first corner
+    /// may be if the start has a heading; the first point sees nothing else then.
     pub(super) fn new(
         polyline: &[Point2],
+        leads: &[Point2],
         (lethal, resolution_m): (&BitGrid, f64),
         [reach_m, corner_m]: [f64; 2],
     ) -> Option<Self> {
@@ -40,6 +43,8 @@ impl Sights {
         if points.len() < 2 {
             return None;
         }
+        points.splice(1..1, leads.iter().copied());
+        let (n_leads, last) = (leads.len(), points.len() - 1);
         let scale = 1.0 / resolution_m;
         let sees = |a: Point2, b: Point2| {
             line_of_sight(lethal, DiagonalRule::NoObstacles, a * scale, b * scale)
@@ -47,7 +52,9 @@ impl Sights {
         let (mut all, mut ranges) = (Vec::new(), Vec::new());
         for (from, &at) in points.iter().enumerate() {
             let first = all.len();
-            for to in ahead(from, points.len() - 1) {
+            let all_leads = (1..=n_leads).take_while(|_| from == 0);
+            let later = ahead(from.max(n_leads), last).take_while(|_| from > 0 || n_leads == 0);
+            for to in all_leads.chain(later) {
                 let step = points[to] - at;
                 let distance_m = step.norm();
                 if distance_m <= reach_m && distance_m > SAME_PLACE_M && sees(at, points[to]) {
@@ -62,6 +69,7 @@ impl Sights {
         }
         let mut sights = Self {
             rest: vec![f64::INFINITY; points.len()],
+            n_leads,
             points,
             all,
             ranges,
@@ -80,6 +88,11 @@ impl Sights {
             });
             self.rest[from] = through.fold(f64::INFINITY, f64::min);
         }
+    }
+
+    /// The points of the polyline after the first.
+    pub(super) fn after_start(&self) -> Range<usize> {
+        self.n_leads + 1..self.points.len()
     }
 
     pub(super) fn last(&self) -> usize {
@@ -130,9 +143,13 @@ mod tests {
     fn walls_hide_points_and_lengthen_what_remains() {
         let map = OccupancyGrid::from_rows(&["....", ".##.", "...."], 1.0).unwrap();
         let points = [(0.5, 0.5), (0.5, 2.5), (3.5, 2.5)].map(|(x, y)| Point2::new(x, y));
-        let sights = Sights::new(&points, (&map.lethal_cells(), 1.0), [100.0, 0.5]).unwrap();
+        let sights = Sights::new(&points, &[], (&map.lethal_cells(), 1.0), [100.0, 0.5]).unwrap();
         let seen = |from: usize| sights.from(from).iter().map(|s| s.to).collect::<Vec<_>>();
         assert_eq!((seen(0), seen(1)), (vec![1], vec![2]));
         assert_eq!([0, 1, 2].map(|i| sights.rest_m(i)), [5.5, 3.0, 0.0]);
+        let lead = Point2::new(0.5, 1.5);
+        let led = Sights::new(&points, &[lead], (&map.lethal_cells(), 1.0), [100.0, 0.5]).unwrap();
+        let seen = |from: usize| led.from(from).iter().map(|s| s.to).collect::<Vec<_>>();
+        assert_eq!((seen(0), seen(1), led.after_start()), (vec![1], vec![2], 2..4));
     }
 }
