@@ -107,8 +107,17 @@ pub enum TrailLayout {
 pub struct Stopping {
     /// Iterations without a better path after which the colony stops; 0 for never.
     pub stall_iterations: u32,
+    /// How much cheaper a path must be to count as better, in shares of the cost, from 0 to 1.
+    pub least_gain: f64,
     /// Cost at which a path is good enough, at least 0; 0 for none.
     pub target_cost: f64,
+}
+
+impl Stopping {
+    /// Below which cost a path counts as better than a known one.
+    pub(super) fn counts_below(&self, known_cost: f64) -> f64 {
+        (1.0 - self.least_gain) * known_cost
+    }
 }
 
 /// What is wrong with a colony.
@@ -151,6 +160,11 @@ impl ColonyConfig {
         self.evaporation.check(self.n_iterations)?;
         self.deposit.check()?;
         self.limits.check()?;
+        check_range(
+            "colony.stopping.least_gain",
+            self.stopping.least_gain,
+            0.0..=1.0,
+        )?;
         check_range(
             "colony.stopping.target_cost",
             self.stopping.target_cost,

@@ -164,20 +164,19 @@ impl<'a> Colony<'a> {
     }
 
     fn remember(&mut self, generation: &Generation) {
-        let memory = &mut self.memory;
+        let (memory, stopping) = (&mut self.memory, &self.config.stopping);
         memory.n_stagnant += 1;
         memory.n_stalled += 1;
         let (Some(best), Some(worst)) = (generation.best(), generation.worst()) else {
             return;
         };
-        if memory
-            .best
-            .as_ref()
-            .is_none_or(|known| best.cost < known.cost)
-        {
+        let known = memory.best.as_ref().map(|known| known.cost);
+        if known.is_none_or(|known| best.cost < known) {
             memory.best = Some(generation.way(best));
             memory.n_stagnant -= 1;
-            memory.n_stalled = 0;
+            if known.is_none_or(|known| best.cost < stopping.counts_below(known)) {
+                memory.n_stalled = 0;
+            }
         }
         if memory
             .worst

@@ -106,6 +106,11 @@ impl ChordConfig {
                 0.0..=10.0,
             ),
             (
+                "chords.stopping.least_gain",
+                self.stopping.least_gain,
+                0.0..=1.0,
+            ),
+            (
                 "chords.stopping.target_cost",
                 self.stopping.target_cost,
                 0.0..=f64::MAX,

@@ -157,15 +157,19 @@ impl<'a> Colony<'a> {
             return;
         };
         let cost = generation.costs[ant];
-        let known = self.best.last();
-        if known.is_none_or(|known| cost.cost < known.cost.cost) {
-            self.n_stagnant -= 1;
-            self.n_stalled = 0;
-            self.best.push(Best {
-                steps: generation.steps_of(ant).to_vec(),
-                cost,
-            });
+        let known = self.best.last().map(|known| known.cost.cost);
+        if known.is_some_and(|known| cost.cost >= known) {
+            return;
         }
+        self.n_stagnant -= 1;
+        let stopping = &self.ground.config.stopping;
+        if known.is_none_or(|known| cost.cost < stopping.counts_below(known)) {
+            self.n_stalled = 0;
+        }
+        self.best.push(Best {
+            steps: generation.steps_of(ant).to_vec(),
+            cost,
+        });
     }
 
     /// Learns how long ways are, evaporates, deposits: Li 2024 (20), (22-24).

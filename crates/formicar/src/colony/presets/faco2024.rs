@@ -48,6 +48,7 @@ pub fn faco2024() -> ChordConfig {
         cost: SteeringCost::default(),
         stopping: Stopping {
             stall_iterations: 5,
+            least_gain: 2e-3,
             target_cost: 0.0,
         },
     }

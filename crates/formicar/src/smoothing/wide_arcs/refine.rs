@@ -61,7 +61,9 @@ impl Chain {
                 continue;
             }
             let merged = self.merged(corner);
-            if merged.is_some_and(|chain| self.take_if_cheaper(task, chain, corner - 1..=corner + 1)) {
+            if merged
+                .is_some_and(|chain| self.take_if_cheaper(task, chain, corner - 1..=corner + 1))
+            {
                 has_gained = true;
                 continue;
             }
@@ -96,7 +98,8 @@ impl Chain {
         if corner + 2 >= self.points.len() {
             return None;
         }
-        let [before, after] = [corner - 1, corner + 1].map(|leg| Point2::unit(self.heading_rad(leg)));
+        let [before, after] =
+            [corner - 1, corner + 1].map(|leg| Point2::unit(self.heading_rad(leg)));
         let between = self.points[corner + 1] - self.points[corner];
         let ahead_m = between.cross(after) / before.cross(after);
         let back_m = between.cross(before) / before.cross(after);

@@ -47,10 +47,13 @@ pub(in super::super) fn widest(task: &Task, polyline: &[Point2]) -> Option<WideW
         task.obstacles.frame().resolution_m(),
     );
     let measures = [LEG_RADII, config.corner_radii].map(|radii| radii * radius_m);
-    let lead = |start: &Pose2| {
-        LEAD_RADII.map(|radii| start.advance(0.0, radii * radius_m).position())
-    };
-    let starts = task.ends.starts.iter().take(usize::from(!task.ends.start_is_free));
+    let lead =
+        |start: &Pose2| LEAD_RADII.map(|radii| start.advance(0.0, radii * radius_m).position());
+    let starts = task
+        .ends
+        .starts
+        .iter()
+        .take(usize::from(!task.ends.start_is_free));
     let leads: Vec<Point2> = starts.flat_map(lead).collect();
     let mut search = Search {
         sights: Sights::new(polyline, &leads, map, measures)?,
@@ -142,7 +145,10 @@ impl Search<'_> {
         }
         let corner_m = self.corner_m();
         let start = self.sights.points[0];
-        let near = self.sights.after_start().filter(|&i| self.is_near(start, i));
+        let near = self
+            .sights
+            .after_start()
+            .filter(|&i| self.is_near(start, i));
         for from in near.collect::<Vec<_>>() {
             let least = start.distance(self.sights.points[from]) + corner_m;
             for sight in self.sights.from(from).to_vec() {

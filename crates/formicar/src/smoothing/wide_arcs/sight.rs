@@ -150,6 +150,9 @@ mod tests {
         let lead = Point2::new(0.5, 1.5);
         let led = Sights::new(&points, &[lead], (&map.lethal_cells(), 1.0), [100.0, 0.5]).unwrap();
         let seen = |from: usize| led.from(from).iter().map(|s| s.to).collect::<Vec<_>>();
-        assert_eq!((seen(0), seen(1), led.after_start()), (vec![1], vec![2], 2..4));
+        assert_eq!(
+            (seen(0), seen(1), led.after_start()),
+            (vec![1], vec![2], 2..4)
+        );
     }
 }
