@@ -9,8 +9,9 @@ use formicar::colony::chord::ChordConfig;
 use formicar::colony::{
     ColonyConfig, dead_end, deposit, evaporation, heuristic, initial, limits, transition,
 };
+use formicar::evolution::EvolutionConfig;
 use formicar::layers::{LayersConfig, MAX_EXPANSION_CELLS};
-use formicar::planner::{HybridAstarConfig, PlannerConfig, PlannerName};
+use formicar::planner::{HybridAstarConfig, ImprovedAstarConfig, PlannerConfig, PlannerName};
 use formicar::smoothing::SmoothingConfig;
 use formicar::tracking::{PurePursuit, Stanley, StartOffset, TrackingConfig};
 use schemars::{JsonSchema, schema_for};
@@ -284,6 +285,54 @@ fn every_colony_has_a_page_that_tells_how_it_differs() {
         assert_eq!(n_rows, differing.len(), "{file}: stray rows");
     }
     assert!(n_colonies > 0);
+}
+
+#[test]
+fn the_pages_of_improved_astar_and_of_populations_have_every_parameter() {
+    let Some(root) = project() else { return };
+    let rows_of = |name: &str| {
+        let page = fs::read_to_string(root.join(format!("docs/src/planners/{name}.md"))).unwrap();
+        let rows = page.lines().filter(|l| l.starts_with("| `"));
+        rows.map(str::to_owned).collect::<Vec<_>>()
+    };
+    let schema = schema_for!(ImprovedAstarConfig).to_value();
+    let improved = serde_json::to_value(ImprovedAstarConfig::default()).unwrap();
+    let rows = flat(&improved).into_iter().map(|(key, value)| {
+        let limit = |which: &str| schema["properties"][&key][which].as_f64().unwrap();
+        let (low, high) = (limit("minimum"), limit("maximum"));
+        format!("| `improved_astar.{key}` | {value} | {low} to {high} |")
+    });
+    assert_eq!(rows_of("improved-astar"), rows.collect::<Vec<_>>());
+    let sorted = |mut rows: Vec<String>| {
+        rows.sort();
+        rows
+    };
+    let [ga, aga] = [EvolutionConfig::ga(), EvolutionConfig::aga()]
+        .map(|config| flat(&serde_json::to_value(config).unwrap()));
+    let number = |value: &Value| match value.as_f64() {
+        Some(number) if value.is_f64() => {
+            let text = number.to_string();
+            if text.contains('.') {
+                text
+            } else {
+                format!("{text}.0")
+            }
+        }
+        _ => cell(value),
+    };
+    let rows = ga
+        .iter()
+        .map(|(key, value)| format!("| `{key}` | {} |", number(value)));
+    assert_eq!(sorted(rows_of("ga")), sorted(rows.collect()));
+    let text = |value: Option<&Value>| value.map_or("-".to_owned(), number);
+    let differing = aga
+        .iter()
+        .filter(|(key, value)| ga.get(*key) != Some(value));
+    let rows = differing.map(|(key, value)| {
+        let of_ga = text(ga.get(key));
+        format!("| `{key}` | {of_ga} | {} |", number(value))
+    });
+    assert_eq!(sorted(rows_of("aga")), sorted(rows.collect()));
 }
 
 #[test]
