@@ -211,10 +211,11 @@ fn the_number_of_threads_changes_nothing() {
 #[test]
 fn bad_parameters_are_refused_with_their_range() {
     let map = case(PlannerName::HybridAstar).map;
-    let bad: [fn(&mut PlannerConfig); 11] = [
+    let bad: [fn(&mut PlannerConfig); 12] = [
         |c| c.colony.n_ants = 0,
         |c| c.layers.expansion = Expansion::Cells(65),
         |c| c.smoothing.n_members = 0,
+        |c| c.smoothing.spline_spacing_radii = -1.0,
         |c| c.hybrid_astar.weight = 0.9,
         |c| c.hybrid_astar.weight = f64::NAN,
         |c| c.hybrid_astar.max_iterations = 0,

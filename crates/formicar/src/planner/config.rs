@@ -6,7 +6,7 @@ use crate::layers::{Expansion, LayersConfig, UShapes};
 use crate::map::DiagonalRule;
 use crate::numeric::OutOfRange;
 use crate::search::HybridAstarConfig;
-use crate::smoothing::SmoothingConfig;
+use crate::smoothing::{Corners, SmoothingConfig};
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use thiserror::Error;
@@ -76,11 +76,15 @@ pub enum PlannerName {
     Zhang2016,
     /// The colony of Joshy & Supriya 2016, as Wang et al. describe it.
     Joshy2016,
+    /// The Ant System that Li et al. 2024 compare with.
+    Aco,
+    /// The same with A*-seeded pheromone and a B-spline.
+    Acof,
 }
 
 impl PlannerName {
     /// All planners, the default first.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 12] = [
         Self::HybridAstar,
         Self::Astar,
         Self::Dijkstra,
@@ -91,6 +95,8 @@ impl PlannerName {
         Self::Wang2019,
         Self::Zhang2016,
         Self::Joshy2016,
+        Self::Aco,
+        Self::Acof,
     ];
 
     /// The word used in files and on the command line.
@@ -106,6 +112,8 @@ impl PlannerName {
             Self::Wang2019 => "wang2019",
             Self::Zhang2016 => "zhang2016",
             Self::Joshy2016 => "joshy2016",
+            Self::Aco => "aco",
+            Self::Acof => "acof",
         }
     }
 
@@ -130,6 +138,8 @@ impl PlannerName {
             }
             Self::Zhang2016 => "Zhang 2016 as Wang et al. describe it: adaptive MAX-MIN Ant System",
             Self::Joshy2016 => "Joshy & Supriya 2016 as Wang et al. describe it: six directions",
+            Self::Aco => "Ant System as Li et al. 2024 compare with it: few ants in a corridor",
+            Self::Acof => "the same with A*-seeded pheromone and a B-spline that nobody checks",
         }
     }
 
@@ -144,6 +154,8 @@ impl PlannerName {
             Self::Wang2019 => Some(presets::wang2019()),
             Self::Zhang2016 => Some(presets::zhang2016()),
             Self::Joshy2016 => Some(presets::joshy2016()),
+            Self::Aco => Some(presets::aco()),
+            Self::Acof => Some(presets::acof()),
         }
     }
 }
@@ -203,7 +215,13 @@ impl PlannerConfig {
                 u_shapes,
             },
             colony: planner.colony().unwrap_or_default(),
-            smoothing: SmoothingConfig::default(),
+            smoothing: match planner {
+                PlannerName::Acof => SmoothingConfig {
+                    corners: Corners::BSpline,
+                    ..SmoothingConfig::default()
+                },
+                _ => SmoothingConfig::default(),
+            },
         }
     }
 

@@ -204,7 +204,7 @@ impl<'a> Search<'a> {
         let map = self.map;
         let end_m = map.s_m(place) + self.task.reach_m();
         let later = match self.task.config.corners {
-            Corners::TwoTurning => 0..0,
+            Corners::TwoTurning | Corners::BSpline => 0..0,
             Corners::TwoTurningOrDubins => map.legs[map.places[place].leg].end..map.places.len(),
         };
         let near = later.take_while(move |&to| map.s_m(to) <= end_m);

@@ -4,6 +4,7 @@ use super::chain::{Piece, cheapest};
 use super::explain::explain;
 use super::polyline::{Polyline, waypoints};
 use super::roadmap::Roadmap;
+use super::spline::spline;
 use super::task::{Ends, Task};
 use super::{Corners, SmoothingConfig, SmoothingError, TwoTurning};
 use crate::collision::{Body, Drive, ObstacleMap};
@@ -58,6 +59,8 @@ pub enum Rounding {
     TwoTurning(TwoTurning),
     /// By a Dubins or Reeds-Shepp curve that passes it.
     Curve,
+    /// By the B-spline that it is a control point of.
+    Spline,
     /// Not at all: a point turns on the spot.
     None,
 }
@@ -68,7 +71,8 @@ pub enum Rounding {
 /// together such that neighbors leave each other room; Dubins curves (Reeds-Shepp where reverse
 /// is allowed) lead from an exact start heading onto the way and from the way to an exact goal
 /// heading. Where start or goal do not lie in the cells of the first and last node, the way begins
-/// and ends at their positions all the same. For a point vehicle the way is the polyline.
+/// and ends at their positions all the same. For a point vehicle the way is the polyline. With
+/// [`Corners::BSpline`] the way is a spline that nobody has checked.
 ///
 /// # Errors
 /// Parameters out of range, no nodes, and the first place of the way that cannot be passed, with
@@ -86,6 +90,9 @@ pub fn smooth(
     let points = waypoints(ground, request, nodes);
     if ground.vehicle.motion() == Motion::Point {
         return Ok(as_polyline(ground, &points));
+    }
+    if config.corners == Corners::BSpline {
+        return Ok(spline(ground, config, request, points));
     }
     let body = Body::new(ground.vehicle);
     let ends = ends(ground, request, config.corners, &body);
@@ -114,7 +121,7 @@ fn ends(ground: &Ground, request: &Request, corners: Corners, body: &Body) -> En
     let goal_is_free = request.goal_heading == GoalHeading::Any;
     let placed = |poses: Vec<Pose2>, is_free: bool| {
         let stride = match (is_free, corners) {
-            (true, Corners::TwoTurning) => return Vec::new(),
+            (true, Corners::TwoTurning | Corners::BSpline) => return Vec::new(),
             (true, Corners::TwoTurningOrDubins) => FREE_HEADING_STRIDE,
             (false, _) => 1,
         };
@@ -198,7 +205,7 @@ fn assembled(ground: &Ground, request: &Request, map: &Roadmap, pieces: &[Piece]
     }
 }
 
-fn world_points(ground: &Ground, line: &Polyline) -> WaypointPath {
+pub(super) fn world_points(ground: &Ground, line: &Polyline) -> WaypointPath {
     let frame = ground.obstacles.frame();
     let to_world = |&p: &Point2| frame.to_world(Pose2::at(p, 0.0)).position();
     WaypointPath {

@@ -3,6 +3,8 @@
 //! Where a paper states no value, it is read from what the paper says or chosen; the pages in
 //! `references/` mark each one.
 
+mod aco;
+mod acof;
 mod ant_system;
 mod elitist;
 mod joshy2016;
@@ -11,6 +13,8 @@ mod max_min;
 mod wang2019;
 mod zhang2016;
 
+pub use aco::aco;
+pub use acof::acof;
 pub use ant_system::ant_system;
 pub use elitist::elitist;
 pub use joshy2016::joshy2016;
@@ -33,6 +37,8 @@ mod tests {
             wang2019(),
             zhang2016(),
             joshy2016(),
+            aco(),
+            acof(),
         ] {
             preset.check().unwrap();
         }
