@@ -1,8 +1,10 @@
 //! Colonies: the same on any number of threads, never better than the optimum, stopped when asked.
 
+use formicar::colony::corridor::{Corridor, RatioCorridor};
 use formicar::colony::dead_end::{DeadEnd, Retreat};
 use formicar::colony::evaporation::{Evaporation, PoissonEvaporation};
 use formicar::colony::heuristic::{Advantage, Guidance, StepLength, Visibility};
+use formicar::colony::initial::{AstarSeed, InitialPheromone};
 use formicar::colony::{
     ColonyConfig, ColonyProblem, ColonyRun, RunError, Stop, Stopping, presets, run,
 };
@@ -14,7 +16,7 @@ use formicar::search::GoalField;
 use std::f64::consts::SQRT_2;
 use std::time::Duration;
 
-fn all_presets() -> [(&'static str, ColonyConfig); 7] {
+fn all_presets() -> [(&'static str, ColonyConfig); 9] {
     [
         ("ant-system", presets::ant_system()),
         ("elitist", presets::elitist()),
@@ -23,6 +25,8 @@ fn all_presets() -> [(&'static str, ColonyConfig); 7] {
         ("wang2019", presets::wang2019()),
         ("zhang2016", presets::zhang2016()),
         ("joshy2016", presets::joshy2016()),
+        ("aco", presets::aco()),
+        ("acof", presets::acof()),
     ]
 }
 
@@ -179,6 +183,62 @@ fn rules_that_no_preset_uses_find_a_way_too() {
     assert!(run_on(&problem, &rules, 1).best.is_some());
 }
 
+#[test]
+fn a_corridor_as_wide_as_the_map_changes_nothing_and_a_narrow_one_is_kept() {
+    let free = ColonyConfig {
+        corridor: Corridor::None,
+        ..small(presets::acof())
+    };
+    let within = |ratio: f64, step_loss_cells: f64| ColonyConfig {
+        corridor: Corridor::Ratio(RatioCorridor {
+            ratio,
+            step_loss_cells,
+        }),
+        ..free.clone()
+    };
+    let problem = builtin_problem("lei-map3", &free);
+    let (all, wide) = (
+        run_on(&problem, &free, 1),
+        run_on(&problem, &within(10.0, 3.0), 1),
+    );
+    assert_eq!((&wide.best, &wide.history), (&all.best, &all.history));
+    let narrow = run_on(&problem, &within(1.05, 0.5), 1);
+    let n_cells = |run: &ColonyRun| run.pheromone.iter().filter(|tau| !tau.is_nan()).count();
+    assert!(2 * n_cells(&narrow) < n_cells(&all));
+    let mut nobody = ();
+    let mut limits = Limits::new(&mut nobody, None, None);
+    let field = GoalField::new(problem.moves(), &[problem.goal()], &mut limits).expect("a goal");
+    let best = narrow.best.expect("a path");
+    let to_go = |cell: &Cell| field.distance_cells(*cell).expect("a way");
+    assert!(best.cells.windows(2).all(|w| to_go(&w[1]) < to_go(&w[0])));
+    assert!(
+        narrow
+            .history
+            .iterations
+            .iter()
+            .all(|i| i.n_arrived == i.n_ants)
+    );
+}
+
+#[test]
+fn the_first_ants_follow_a_seed() {
+    let seeded = |factor: f64| {
+        let config = ColonyConfig {
+            initial: InitialPheromone::AstarSeed(AstarSeed {
+                factor,
+                ..AstarSeed::default()
+            }),
+            n_iterations: 1,
+            ..presets::aco()
+        };
+        let problem = builtin_problem("lei-map3", &config);
+        let length = run_on(&problem, &config, 1).history.iterations[0].mean_length;
+        length.expect("ants arrive")
+    };
+    let (plain, thick) = (seeded(1.0), seeded(100.0));
+    assert!(thick < plain, "{thick} {plain}");
+}
+
 /// The ants' greed leads into the pocket before the goal, which has no way on.
 const TRAP: [&str; 7] = [
     ".........",
@@ -227,6 +287,7 @@ fn stops_by_stall_target_budget_and_iterations() {
         &problem,
         &with(Stopping {
             stall_iterations: 10,
+            least_gain: 0.0,
             target_cost: 0.0,
         }),
         1,
@@ -243,6 +304,7 @@ fn stops_by_stall_target_budget_and_iterations() {
         &problem,
         &with(Stopping {
             stall_iterations: 0,
+            least_gain: 0.0,
             target_cost: 40.0,
         }),
         1,
@@ -331,12 +393,24 @@ type Spoil = fn(&mut ColonyConfig);
 
 #[test]
 fn bad_parameters_are_refused_with_their_range() {
-    let bad: [(&str, Spoil); 6] = [
+    let bad: [(&str, Spoil); 8] = [
         ("n_ants = 0; it must be in 1", |c| c.n_ants = 0),
         ("n_iterations = 0", |c| c.n_iterations = 0),
         ("alpha = -1", |c| c.alpha = -1.0),
         ("turn_weight = NaN", |c| c.cost.turn_weight = f64::NAN),
         ("target_cost = -2", |c| c.stopping.target_cost = -2.0),
+        ("corridor.ratio = 0.9", |c| {
+            c.corridor = Corridor::Ratio(RatioCorridor {
+                ratio: 0.9,
+                ..RatioCorridor::default()
+            });
+        }),
+        ("initial.factor = 0", |c| {
+            c.initial = InitialPheromone::AstarSeed(AstarSeed {
+                factor: 0.0,
+                ..AstarSeed::default()
+            });
+        }),
         ("rho is -0.05", |c| {
             c.evaporation = Evaporation::Poisson(PoissonEvaporation {
                 offset: 0.575,

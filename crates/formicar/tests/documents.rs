@@ -7,7 +7,7 @@
 
 use formicar::colony::chord::ChordConfig;
 use formicar::colony::{
-    ColonyConfig, dead_end, deposit, evaporation, heuristic, initial, limits, transition,
+    ColonyConfig, corridor, dead_end, deposit, evaporation, heuristic, initial, limits, transition,
 };
 use formicar::evolution::EvolutionConfig;
 use formicar::layers::{LayersConfig, MAX_EXPANSION_CELLS};
@@ -194,6 +194,7 @@ fn the_pages_of_rules_have_every_rule_and_parameter() {
     let Some(root) = project() else { return };
     compare_rules::<heuristic::Visibility>(&root, "heuristic");
     compare_rules::<heuristic::Guidance>(&root, "heuristic");
+    compare_rules::<corridor::Corridor>(&root, "corridor");
     compare_rules::<initial::InitialPheromone>(&root, "initial-pheromone");
     compare_rules::<transition::Transition>(&root, "transition");
     compare_rules::<dead_end::DeadEnd>(&root, "dead-ends");
@@ -261,6 +262,7 @@ fn every_colony_has_a_page_that_tells_how_it_differs() {
         let base = match planner {
             PlannerName::AntSystem => continue,
             PlannerName::Zhang2016 | PlannerName::Joshy2016 => PlannerName::Wang2019,
+            PlannerName::Acof => PlannerName::Aco,
             _ => PlannerName::AntSystem,
         };
         let [base, own] = [base, planner].map(|planner| {

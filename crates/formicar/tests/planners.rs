@@ -258,10 +258,11 @@ fn seeded(share: f64) -> InitialPopulation {
 #[test]
 fn bad_parameters_are_refused_with_their_range() {
     let map = case(PlannerName::HybridAstar).map;
-    let bad: [fn(&mut PlannerConfig); 34] = [
+    let bad: [fn(&mut PlannerConfig); 35] = [
         |c| c.colony.n_ants = 0,
         |c| c.layers.expansion = Expansion::Cells(65),
         |c| c.smoothing.n_members = 0,
+        |c| c.smoothing.spline_spacing_radii = -1.0,
         |c| c.smoothing.bend_weight = f64::NAN,
         |c| c.chords.n_ants = 0,
         |c| c.chords.reach = 17,

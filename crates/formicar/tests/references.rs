@@ -4,9 +4,10 @@ use formicar::planner::{PlannerConfig, PlannerName};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-const PAGES: [&str; 2] = [
+const PAGES: [&str; 3] = [
     include_str!("../references/lei2020.md"),
     include_str!("../references/wang2019.md"),
+    include_str!("../references/li2024.md"),
 ];
 const ORIGINS: [&str; 3] = ["stated", "read", "chosen"];
 
@@ -49,7 +50,11 @@ fn table(heading: &str) -> BTreeMap<String, String> {
 
 #[test]
 fn every_parameter_of_a_paper_is_in_its_table() {
-    for planner in [PlannerName::Lei2020, PlannerName::Wang2019] {
+    for planner in [
+        PlannerName::Lei2020,
+        PlannerName::Wang2019,
+        PlannerName::Faco2024,
+    ] {
         let heading = format!("## Parameters of `{}`\n", planner.name());
         assert_eq!(table(&heading), parameters(planner), "{heading}");
     }
@@ -63,6 +68,8 @@ fn every_difference_between_presets_is_in_a_table() {
         (PlannerName::MaxMin, PlannerName::AntSystem),
         (PlannerName::Zhang2016, PlannerName::Wang2019),
         (PlannerName::Joshy2016, PlannerName::Wang2019),
+        (PlannerName::Aco, PlannerName::AntSystem),
+        (PlannerName::Acof, PlannerName::Aco),
     ] {
         let base_parameters = parameters(base);
         let mut differences = parameters(planner);

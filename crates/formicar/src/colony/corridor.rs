@@ -25,19 +25,30 @@ pub enum Corridor {
 pub struct RatioCorridor {
     /// Length of the ways that the corridor holds, in shortest ways, from 1 to 10.
     pub ratio: f64,
+    /// The most that a step of length c may lose, c + S' - S cells, from 0 to 64; no step between
+    /// neighbors loses more than 2.83. Below 1 every such step leads nearer to the goal, and no
+    /// ant gets stuck.
+    pub step_loss_cells: f64,
 }
 
 impl Default for RatioCorridor {
     fn default() -> Self {
-        Self { ratio: 1.1 }
+        Self {
+            ratio: 1.1,
+            step_loss_cells: 3.0,
+        }
     }
 }
 
 impl Corridor {
-    pub(super) fn check(&self) -> Result<(), OutOfRange> {
+    pub(in crate::colony) fn check(&self) -> Result<(), OutOfRange> {
         match self {
             Self::None => Ok(()),
-            Self::Ratio(rule) => check_range("colony.corridor.ratio", rule.ratio, 1.0..=10.0),
+            Self::Ratio(rule) => {
+                check_range("colony.corridor.ratio", rule.ratio, 1.0..=10.0)?;
+                let loss = rule.step_loss_cells;
+                check_range("colony.corridor.step_loss_cells", loss, 0.0..=64.0)
+            }
         }
     }
 }

@@ -11,7 +11,7 @@ use super::footmarks::Footmarks;
 use super::heuristic::LogDesire;
 use super::node::Node;
 use super::problem::ColonyProblem;
-use crate::map::STEPS;
+use crate::map::{STEP_COSTS, STEPS};
 use crate::progress::Limits;
 use crate::search::{GoalField, STRAIGHT_COST, SearchError};
 use std::ops::Range;
@@ -83,6 +83,8 @@ struct Region<'a> {
     to_goal: Option<GoalField>,
     /// The way to the start from the cells of the corridor, where there is one.
     corridor: Option<GoalField>,
+    /// The most that a step in the corridor may lose, in units of the fields.
+    most_loss: i64,
 }
 
 impl<'a> Region<'a> {
@@ -98,6 +100,7 @@ impl<'a> Region<'a> {
             directions: problem.directions(config.directions),
             to_goal: None,
             corridor: None,
+            most_loss: i64::MAX,
         };
         if config.guidance == super::heuristic::Guidance::None && config.corridor == Corridor::None
         {
@@ -109,6 +112,7 @@ impl<'a> Region<'a> {
         {
             let corridor = to_goal.corridor(moves, problem.start(), rule.ratio, &mut limits)?;
             region.corridor = Some(corridor);
+            region.most_loss = (rule.step_loss_cells * f64::from(STRAIGHT_COST)) as i64;
         }
         region.to_goal = Some(to_goal);
         Ok(region)
@@ -117,12 +121,14 @@ impl<'a> Region<'a> {
     /// The allowed steps of a cell, a bit each.
     fn steps(&self, cell: usize) -> u8 {
         let allowed = self.masks[cell] & self.directions;
-        let Some(corridor) = &self.corridor else {
+        let (Some(to_start), Some(to_goal)) = (&self.corridor, &self.to_goal) else {
             return allowed;
         };
         let stays = |&step: &usize| {
             let to = cell.wrapping_add_signed(self.offsets[step]);
-            corridor.costs()[to] != u32::MAX
+            let [before, after] = [cell, to].map(|cell| i64::from(to_goal.costs()[cell]));
+            let is_in = to_start.costs()[to] != u32::MAX;
+            is_in && i64::from(STEP_COSTS[step]) + after - before <= self.most_loss
         };
         steps_in(allowed).filter(stays).map(|step| 1 << step).sum()
     }
@@ -315,7 +321,10 @@ mod tests {
     fn a_corridor_holds_the_cells_of_ways_that_are_short_enough() {
         let within = |ratio: f64| {
             let config = ColonyConfig {
-                corridor: Corridor::Ratio(RatioCorridor { ratio }),
+                corridor: Corridor::Ratio(RatioCorridor {
+                    ratio,
+                    ..RatioCorridor::default()
+                }),
                 ..presets::ant_system()
             };
             ground(&config, Cell::new(4, 2))

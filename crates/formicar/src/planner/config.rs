@@ -93,11 +93,15 @@ pub enum PlannerName {
     Joshy2016,
     /// The fractional-order colony of Li et al. 2024.
     Faco2024,
+    /// The Ant System that Li et al. 2024 compare with.
+    Aco,
+    /// The same with A*-seeded pheromone and a B-spline.
+    Acof,
 }
 
 impl PlannerName {
     /// All planners, the default first.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 16] = [
         Self::HybridAstar,
         Self::Astar,
         Self::Dijkstra,
@@ -112,6 +116,8 @@ impl PlannerName {
         Self::Zhang2016,
         Self::Joshy2016,
         Self::Faco2024,
+        Self::Aco,
+        Self::Acof,
     ];
 
     /// The word used in files and on the command line.
@@ -131,6 +137,8 @@ impl PlannerName {
             Self::Zhang2016 => "zhang2016",
             Self::Joshy2016 => "joshy2016",
             Self::Faco2024 => "faco2024",
+            Self::Aco => "aco",
+            Self::Acof => "acof",
         }
     }
 
@@ -163,6 +171,8 @@ impl PlannerName {
             Self::Faco2024 => {
                 "Li et al. 2024: ants that step by chords as a suspended car steers, fractional order"
             }
+            Self::Aco => "Ant System as Li et al. 2024 compare with it: few ants in a corridor",
+            Self::Acof => "the same with A*-seeded pheromone and a B-spline that nobody checks",
         }
     }
 
@@ -183,6 +193,8 @@ impl PlannerName {
             Self::Wang2019 => Some(presets::wang2019()),
             Self::Zhang2016 => Some(presets::zhang2016()),
             Self::Joshy2016 => Some(presets::joshy2016()),
+            Self::Aco => Some(presets::aco()),
+            Self::Acof => Some(presets::acof()),
         }
     }
 }
@@ -278,6 +290,10 @@ fn smoothing(planner: PlannerName) -> SmoothingConfig {
                 ..default
             }
         }
+        PlannerName::Acof => SmoothingConfig {
+            corners: Corners::BSpline,
+            ..default
+        },
         PlannerName::Faco2024 => SmoothingConfig {
             redundant_nodes: RedundantNodes::Keep,
             corners: Corners::WideArcs,

@@ -229,7 +229,7 @@ impl<'a> Search<'a> {
         let map = self.map;
         let end_m = map.s_m(place) + self.task.reach_m();
         let later = match self.task.config.corners {
-            Corners::TwoTurning => 0..0,
+            Corners::TwoTurning | Corners::BSpline => 0..0,
             Corners::TwoTurningOrDubins | Corners::WideArcs => {
                 map.legs[map.places[place].leg].end..map.places.len()
             }

@@ -18,6 +18,9 @@ pub enum Corners {
     /// is allowed) between poses on earlier and later segments. Not in the paper.
     #[default]
     TwoTurningOrDubins,
+    /// Not one by one, but by a B-spline of third order with the nodes as control points (Li 2024,
+    /// ACOF): smooth, and not checked against obstacles or the steering limit.
+    BSpline,
 }
 
 /// Parameters of smoothing; costs are in metres of forward driving.
@@ -58,6 +61,10 @@ pub struct SmoothingConfig {
     /// Cost of a change of gear, metres, 0 to 1000.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub direction_switching_cost: f64,
+    /// Distance of control points that B-splines get on long legs, in turning radii, 0 to 100; with
+    /// 0 the nodes are all there are.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub spline_spacing_radii: f64,
 }
 
 impl Default for SmoothingConfig {
@@ -74,6 +81,7 @@ impl Default for SmoothingConfig {
             arc_margin_m: 0.1,
             reverse_penalty: 2.0,
             direction_switching_cost: 1.0,
+            spline_spacing_radii: 0.0,
         }
     }
 }
@@ -111,6 +119,11 @@ impl SmoothingConfig {
             "smoothing.direction_switching_cost",
             switching,
             0.0..=1000.0,
+        )?;
+        check_range(
+            "smoothing.spline_spacing_radii",
+            self.spline_spacing_radii,
+            0.0..=100.0,
         )
     }
 }

@@ -95,7 +95,7 @@ pub enum CornerProblem {
 
 fn no_curve(corners: Corners) -> &'static str {
     match corners {
-        Corners::TwoTurning => "",
+        Corners::TwoTurning | Corners::BSpline => "",
         Corners::TwoTurningOrDubins | Corners::WideArcs => ", and no curve past it is free",
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! Redundant nodes go, corners are rounded by 2-turning (Lei & Zheng 2020, sec. III), and
 //! Dubins or Reeds-Shepp curves join the headings at both ends. Every piece is checked with the
-//! swept body; what cannot be passed is named.
+//! swept body; what cannot be passed is named. A B-spline over the nodes (Li 2024) is the other way
+//! to a smooth path, and looks at nothing.
 
 mod chain;
 mod config;
@@ -13,6 +14,7 @@ mod polyline;
 mod redundant_nodes;
 mod roadmap;
 mod smooth;
+mod spline;
 mod task;
 mod two_turning;
 mod wide_arcs;

@@ -4,6 +4,7 @@ use super::chain::{Piece, cheapest};
 use super::explain::explain;
 use super::polyline::{Polyline, waypoints};
 use super::roadmap::Roadmap;
+use super::spline::spline;
 use super::task::{Ends, Task};
 use super::wide_arcs::{WideWay, widest};
 use super::{Corners, SmoothingConfig, SmoothingError, TwoTurning};
@@ -59,6 +60,8 @@ pub enum Rounding {
     TwoTurning(TwoTurning),
     /// By a Dubins or Reeds-Shepp curve that passes it.
     Curve,
+    /// By the B-spline that it is a control point of.
+    Spline,
     /// Not at all: a point turns on the spot.
     None,
 }
@@ -69,7 +72,8 @@ pub enum Rounding {
 /// together such that neighbors leave each other room; Dubins curves (Reeds-Shepp where reverse
 /// is allowed) lead from an exact start heading onto the way and from the way to an exact goal
 /// heading. Where start or goal do not lie in the cells of the first and last node, the way begins
-/// and ends at their positions all the same. For a point vehicle the way is the polyline.
+/// and ends at their positions all the same. For a point vehicle the way is the polyline. With
+/// [`Corners::BSpline`] the way is a spline that nobody has checked.
 ///
 /// # Errors
 /// Parameters out of range, no nodes, and the first place of the way that cannot be passed, with
@@ -87,6 +91,9 @@ pub fn smooth(
     let points = waypoints(ground, request, nodes);
     if ground.vehicle.motion() == Motion::Point {
         return Ok(as_polyline(ground, &points));
+    }
+    if config.corners == Corners::BSpline {
+        return Ok(spline(ground, config, request, points));
     }
     let body = Body::new(ground.vehicle);
     let ends = ends(ground, request, config.corners, &body);
@@ -126,7 +133,7 @@ fn ends(ground: &Ground, request: &Request, corners: Corners, body: &Body) -> En
     let goal_is_free = request.goal_heading == GoalHeading::Any;
     let placed = |poses: Vec<Pose2>, is_free: bool| {
         let stride = match (is_free, corners) {
-            (true, Corners::TwoTurning) => return Vec::new(),
+            (true, Corners::TwoTurning | Corners::BSpline) => return Vec::new(),
             (true, Corners::TwoTurningOrDubins | Corners::WideArcs) => FREE_HEADING_STRIDE,
             (false, _) => 1,
         };
@@ -233,7 +240,7 @@ fn driven<'a>(start: Pose2, arcs: impl IntoIterator<Item = &'a Arc>) -> CurvePat
     path
 }
 
-fn world_points(ground: &Ground, points: &[Point2]) -> WaypointPath {
+pub(super) fn world_points(ground: &Ground, points: &[Point2]) -> WaypointPath {
     let frame = ground.obstacles.frame();
     let to_world = |&p: &Point2| frame.to_world(Pose2::at(p, 0.0)).position();
     WaypointPath {

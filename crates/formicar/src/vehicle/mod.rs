@@ -6,6 +6,7 @@ mod presets;
 mod primitives;
 mod shape;
 mod suspension;
+mod virtual_wheel;
 
 pub use kinematics::{AckermannAxles, BicycleInput, BicycleState, Wheels};
 pub use parameters::{FootprintSpec, VehicleParameters};
@@ -13,3 +14,4 @@ pub use presets::PRESET_NAMES;
 pub use primitives::{Alignment, Gears, Primitive, PrimitiveSet};
 pub use shape::{Motion, Vehicle, VehicleError};
 pub use suspension::{SteeringDemand, SuspendedSteering, SuspensionParameters};
+pub use virtual_wheel::BodyMotion;

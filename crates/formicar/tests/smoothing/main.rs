@@ -10,6 +10,7 @@ mod brute_force;
 mod certified;
 mod headings;
 mod reasons;
+mod splines;
 
 use formicar::collision::ObstacleMap;
 use formicar::geometry::Pose2;

@@ -58,7 +58,7 @@ impl Candidates {
                 continue;
             };
             let after = f64::from(ground.to_go[number]);
-            if ground.ring.lengths[step] + after - to_go > ground.step_detour {
+            if ground.ring.lengths[step] + after - to_go > ground.step_loss {
                 continue;
             }
             self.largest_to_go = self.largest_to_go.max(after);

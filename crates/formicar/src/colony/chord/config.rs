@@ -1,13 +1,13 @@
 //! Every parameter of a colony that steps by chords.
 
 use super::corner::CornerTerm;
-use super::corridor::Corridor;
 use super::deposit::SpreadDeposit;
 use super::distance::DistanceTerm;
 use super::limit::SteeringLimit;
 use super::safety::Safety;
 use super::transition::ChordTransition;
 use crate::colony::config::{ColonyError, Stopping};
+use crate::colony::corridor::Corridor;
 use crate::colony::dead_end::DeadEnd;
 use crate::colony::evaporation::Evaporation;
 use crate::colony::heuristic::Guidance;
@@ -122,7 +122,7 @@ impl ChordConfig {
             check_range("chords.growth_radii", growth, 0.0..=10.0)?;
         }
         self.safety.check()?;
-        self.corridor.check()?;
+        self.corridor.check().map_err(in_section)?;
         self.guidance.check().map_err(in_section)?;
         self.corner.check()?;
         self.distance.check()?;

@@ -1,11 +1,12 @@
 //! A problem made ready for a configuration: what stays the same over all generations.
 
 use super::config::ChordConfig;
-use super::corridor::Numbered;
+use super::numbered::Numbered;
 use super::problem::ChordProblem;
 use super::ring::{Ring, moved};
 use super::safety::Guard;
 use crate::colony::config::ColonyError;
+use crate::colony::corridor::Corridor;
 use crate::colony::engine::RunError;
 use crate::geometry::{Point2, angle_difference};
 use crate::map::Cell;
@@ -33,7 +34,7 @@ pub(super) struct Ground<'a> {
     /// By number the shortest way to the goal, cells.
     pub(super) to_go: Vec<f32>,
     /// The most that a step may lengthen the way, cells.
-    pub(super) step_detour: f64,
+    pub(super) step_loss: f64,
     /// The shortest path over cells.
     pub(super) shortest: GridPath,
     /// What it comes to when walked by chords.
@@ -70,7 +71,7 @@ impl<'a> Ground<'a> {
         let Some(shortest_cells) = to_goal.distance_cells(start) else {
             return Ok(None);
         };
-        let cells = config.corridor.cells(moves, &to_goal, start, &mut limits)?;
+        let cells = Numbered::of(&config.corridor, moves, (&to_goal, start), &mut limits)?;
         let to_go = cells.iter().map(|cell| to_goal.distance_cells(cell));
         let to_go = to_go
             .map(|cells| cells.unwrap_or(f64::INFINITY) as f32)
@@ -98,7 +99,10 @@ impl<'a> Ground<'a> {
             )?,
             cells,
             to_go,
-            step_detour: config.corridor.step_detour(),
+            step_loss: match &config.corridor {
+                Corridor::Ratio(rule) => rule.step_loss_cells,
+                Corridor::None => f64::INFINITY,
+            },
             shortest: to_goal.path(problem.moves, start)?.path,
             reference: PolylineCost::default(),
             meter: SteeringMeter::new(steering, suspended),

@@ -1,11 +1,11 @@
 //! The fractional-order colony of Li et al. 2024.
 
 use crate::colony::chord::{
-    ChordConfig, ChordTransition, CornerRule, CornerTerm, Corridor, DistanceTerm, DynamicLimit,
-    FootprintSafety, FractionalTransition, KnownLengths, NearShortest, Safety, SpreadDeposit,
-    SteeringLimit,
+    ChordConfig, ChordTransition, CornerRule, CornerTerm, DistanceTerm, DynamicLimit,
+    FootprintSafety, FractionalTransition, KnownLengths, Safety, SpreadDeposit, SteeringLimit,
 };
 use crate::colony::config::Stopping;
+use crate::colony::corridor::{Corridor, RatioCorridor};
 use crate::colony::dead_end::{DeadEnd, Retreat};
 use crate::colony::evaporation::{Evaporation, Generational};
 use crate::colony::heuristic::{Advantage, Guidance};
@@ -28,9 +28,9 @@ pub fn faco2024() -> ChordConfig {
         corner_exponent: 1.0,
         distance_exponent: 1.0,
         safety: Safety::Footprint(FootprintSafety { margin_cells: 0.5 }),
-        corridor: Corridor::NearShortest(NearShortest {
+        corridor: Corridor::Ratio(RatioCorridor {
             ratio: 1.1,
-            step_detour_cells: 4.0,
+            step_loss_cells: 4.0,
         }),
         guidance: Guidance::Advantage(Advantage { beta: 1.0 }),
         corner: CornerTerm::Product(CornerRule::default()),

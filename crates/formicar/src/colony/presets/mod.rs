@@ -3,6 +3,8 @@
 //! Where a paper states no value, it is read from what the paper says or chosen; the pages in
 //! `references/` mark each one.
 
+mod aco;
+mod acof;
 mod ant_system;
 mod elitist;
 mod faco2024;
@@ -12,6 +14,8 @@ mod max_min;
 mod wang2019;
 mod zhang2016;
 
+pub use aco::aco;
+pub use acof::acof;
 pub use ant_system::ant_system;
 pub use elitist::elitist;
 pub use faco2024::faco2024;
@@ -35,6 +39,8 @@ mod tests {
             wang2019(),
             zhang2016(),
             joshy2016(),
+            aco(),
+            acof(),
         ] {
             preset.check().unwrap();
         }

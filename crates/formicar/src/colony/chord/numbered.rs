@@ -1,77 +1,9 @@
 //! The cells between which ants choose, numbered without gaps.
 
+use crate::colony::corridor::Corridor;
 use crate::map::{BitGrid, Cell, MoveMasks};
-use crate::numeric::{OutOfRange, check_range};
 use crate::progress::Limits;
 use crate::search::{GoalField, SearchError};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-/// Where ants may go.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "rule", rename_all = "kebab-case")]
-pub enum Corridor {
-    /// Near shortest ways over cells, and on a step not far off one: what large maps need. Not in
-    /// the paper, but for its "local space weighting".
-    NearShortest(NearShortest),
-    /// Wherever the goal can be reached from.
-    None,
-}
-
-/// How far from a shortest way ants may go.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct NearShortest {
-    /// The longest way through a cell, by the shortest of all, from 1 to 100.
-    pub ratio: f64,
-    /// The most that a step may lengthen the way, cells, from 0 to 1000.
-    pub step_detour_cells: f64,
-}
-
-impl Default for NearShortest {
-    fn default() -> Self {
-        Self {
-            ratio: 1.1,
-            step_detour_cells: 4.0,
-        }
-    }
-}
-
-impl Corridor {
-    pub(super) fn check(&self) -> Result<(), OutOfRange> {
-        let Self::NearShortest(rule) = self else {
-            return Ok(());
-        };
-        check_range("chords.corridor.ratio", rule.ratio, 1.0..=100.0)?;
-        let detour = rule.step_detour_cells;
-        check_range("chords.corridor.step_detour_cells", detour, 0.0..=1000.0)
-    }
-
-    /// The most that a step may lengthen the way, cells.
-    pub(super) fn step_detour(&self) -> f64 {
-        match self {
-            Self::NearShortest(rule) => rule.step_detour_cells,
-            Self::None => f64::INFINITY,
-        }
-    }
-
-    /// The cells of the corridor on the way from a start to the goals of a field, which it has.
-    pub(super) fn cells(
-        &self,
-        moves: &MoveMasks,
-        to_goal: &GoalField,
-        start: Cell,
-        limits: &mut Limits,
-    ) -> Result<Numbered, SearchError> {
-        match self {
-            Self::NearShortest(rule) => {
-                let near = to_goal.corridor(moves, start, rule.ratio, limits)?;
-                Ok(Numbered::reached(near.costs(), moves.n_cols()))
-            }
-            Self::None => Ok(Numbered::reached(to_goal.costs(), moves.n_cols())),
-        }
-    }
-}
 
 /// Cells numbered row by row.
 #[derive(Clone, Debug)]
@@ -94,6 +26,22 @@ impl Numbered {
             ranks: ranks.collect(),
             words_per_row: cells.n_cols().div_ceil(64),
             cells,
+        }
+    }
+
+    /// The cells of a corridor from a start to the goals of a field, which it reaches.
+    pub(super) fn of(
+        corridor: &Corridor,
+        moves: &MoveMasks,
+        (to_goal, start): (&GoalField, Cell),
+        limits: &mut Limits,
+    ) -> Result<Self, SearchError> {
+        match corridor {
+            Corridor::Ratio(rule) => {
+                let near = to_goal.corridor(moves, start, rule.ratio, limits)?;
+                Ok(Self::reached(near.costs(), moves.n_cols()))
+            }
+            Corridor::None => Ok(Self::reached(to_goal.costs(), moves.n_cols())),
         }
     }
 
