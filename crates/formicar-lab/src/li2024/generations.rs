@@ -111,7 +111,7 @@ fn of_ways(job: &Job, ways: &AntWays, (blocked, rule): (&BitGrid, DiagonalRule))
 }
 
 impl Course {
-    /// None where no run had a generation.
+    /// None where no run had a generation with a cost.
     fn new(method: &str, runs: &[Vec<Generation>]) -> Option<Self> {
         let n_generations = runs.iter().map(Vec::len).max().filter(|&n| n > 0)?;
         let over_runs = |which: usize, i: usize| {
@@ -120,10 +120,11 @@ impl Course {
             quartiles(&values)
         };
         let course = |which: usize| (0..n_generations).map(|i| over_runs(which, i)).collect();
-        Some(Self {
+        let lowest: Vec<_> = course(1);
+        lowest.iter().any(Option::is_some).then(|| Self {
             method: method.to_owned(),
             mean: course(0),
-            lowest: course(1),
+            lowest,
         })
     }
 }
@@ -201,5 +202,6 @@ mod tests {
         assert_eq!(course.mean, [Some([5.0; 3]), Some([3.5, 4.0, 4.5])]);
         assert_eq!(course.lowest, [Some([4.0; 3]), Some([2.5, 3.0, 3.5])]);
         assert!(Course::new("x", &[Vec::new()]).is_none());
+        assert!(Course::new("x", &[vec![[None, None]]]).is_none());
     }
 }
