@@ -7,16 +7,75 @@ use crate::experiment::Variant;
 use crate::report::Block;
 use crate::report::{Field, Section, Table};
 use crate::statistics::{bootstrap_median, holm, quantile, vargha_delaney_a, wilcoxon};
+use formicar::colony::chord::{
+    ChordConfig, ChordTransition, CornerRule, CornerTerm, Depositor, DistanceTerm, Safety,
+    SteeringLimit, StraightnessUse,
+};
+use formicar::colony::corridor::Corridor;
+use formicar::colony::dead_end::DeadEnd;
+use formicar::colony::evaporation::{Constant, Evaporation, Generational, Recursion};
+use formicar::colony::heuristic::Guidance;
 use formicar::numeric::Seed;
-use formicar::planner::PlannerName;
+use formicar::planner::{PlannerConfig, PlannerName};
+use formicar::smoothing::{Corners, RedundantNodes};
 
 /// The part of the experiment.
 pub(super) const ABLATION: &str = "ablation";
 
-/// The method as it is, then with each of its terms off; none if this build does not know it.
+/// The method as it is, then with each of its terms off, and two that tell what ants and arcs
+/// bring apart.
 pub(super) fn variants() -> Vec<Variant> {
-    let planner: Result<PlannerName, _> = PROPOSED.parse();
-    planner.map_or(Vec::new(), |planner| vec![Variant::of(planner)])
+    let faco = PlannerName::Faco2024;
+    let off = |what: &str, change: fn(&mut ChordConfig)| {
+        Variant::changed(faco, what, |c| change(&mut c.chords))
+    };
+    vec![
+        Variant::of(faco),
+        off("corners cost nothing", |c| c.corner = CornerTerm::None),
+        off("corners as a sum", |c| {
+            c.corner = CornerTerm::Sum(CornerRule::default());
+        }),
+        off("straightness 1", |c| {
+            c.corner = CornerTerm::Product(CornerRule {
+                straightness: StraightnessUse::One,
+                ..CornerRule::default()
+            });
+        }),
+        off("no distance term", |c| c.distance = DistanceTerm::None),
+        off("rigid steering limit", |c| c.limit = SteeringLimit::Rigid),
+        off("integer order", |c| c.transition = ChordTransition::Plain),
+        off("no A* seed", |c| c.initial.factor = 1.0),
+        off("constant evaporation", |c| {
+            c.evaporation = Evaporation::Constant(Constant { rho: 0.5 });
+        }),
+        off("evaporation to the letter", |c| {
+            c.evaporation = Evaporation::Generational(Generational {
+                recursion: Recursion::Compound,
+                ..Generational::default()
+            });
+        }),
+        off("deposit by length alone", |c| c.deposit.spread_weight = 0.0),
+        off("all ants deposit", |c| c.deposit.by = Depositor::All),
+        off("no footprint", |c| c.safety = Safety::None),
+        off("a disc for the footprint", |c| c.safety = Safety::Disc),
+        off("no guidance", |c| c.guidance = Guidance::None),
+        off("no corridor", |c| c.corridor = Corridor::None),
+        off("ants die in dead ends", |c| c.dead_end = DeadEnd::Die),
+        off("eight neighbors", |c| c.reach = 1),
+        off("all 50 generations", |c| c.stopping.stall_iterations = 0),
+        off("the paper's plain form", |c| {
+            c.guidance = Guidance::None;
+            c.corridor = Corridor::None;
+            c.dead_end = DeadEnd::Die;
+        }),
+        Variant::changed(faco, "2-turning for wide arcs", |c| {
+            c.smoothing.corners = Corners::TwoTurningOrDubins;
+        }),
+        Variant::changed(PlannerName::Astar, "wide arcs, no ants", |c| {
+            c.smoothing = PlannerConfig::of(PlannerName::Faco2024).smoothing;
+            c.smoothing.redundant_nodes = RedundantNodes::Collinear;
+        }),
+    ]
 }
 
 /// A number that variants are compared by, pair by pair.

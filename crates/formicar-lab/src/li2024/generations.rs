@@ -72,7 +72,11 @@ struct Watcher<'a> {
 
 impl Observer for Watcher<'_> {
     fn on_event(&mut self, event: &Event) {
-        if let Some([mean, best]) = self.source.costs(event) {
+        if let Some((iteration, [mean, best])) = self.source.costs(event) {
+            if iteration == 0 {
+                // A method that tries again begins anew.
+                self.generations.clear();
+            }
             let before = self.generations.last().and_then(|last| last[1]);
             let lowest = [before, best].into_iter().flatten().reduce(f64::min);
             self.generations.push([mean, lowest]);
@@ -81,15 +85,18 @@ impl Observer for Watcher<'_> {
 }
 
 impl Source<'_> {
-    /// Mean and least J of a generation; none of other events.
-    fn costs(&self, event: &Event) -> Option<Generation> {
-        let Event::Iteration(view) = event else {
-            return None;
+    /// Mean and least J of a generation, and its number; none of other events.
+    fn costs(&self, event: &Event) -> Option<(u32, Generation)> {
+        let (record, ways) = match event {
+            Event::Iteration(view) => (view.record, Some(&view.ways)),
+            Event::Generation(view) => (view.record, None),
+            _ => return None,
         };
-        Some(match self {
-            Self::Record => [view.record.mean_cost, view.record.best_cost],
-            Self::Ways { job, blocked, rule } => of_ways(job, &view.ways, (blocked, *rule)),
-        })
+        let costs = match (self, ways) {
+            (Self::Ways { job, blocked, rule }, Some(ways)) => of_ways(job, ways, (blocked, *rule)),
+            _ => [record.mean_cost, record.best_cost],
+        };
+        Some((record.iteration, costs))
     }
 }
 

@@ -23,7 +23,6 @@ use drive::{Drive, Exhibit, Job};
 use generations::Course;
 use grounds::{hood, neighborhood, shortest_m};
 use methods::{Method, Native, methods};
-use std::fmt::Write;
 use tables::{COMPARISON, Comparison, over_scenarios};
 
 /// The part of the experiment on the scenarios of the data set.
@@ -35,10 +34,8 @@ const HOOD: &str = "hood";
 /// # Errors
 /// Files of the data set that cannot be read.
 pub fn li2024(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproduction> {
-    let (known, unknown) = methods();
     let plan = Plan {
-        methods: known,
-        unknown,
+        methods: methods(),
         ablation: ablation::variants(),
         ground: neighborhood()?,
         hood: hood(setup)?,
@@ -50,8 +47,6 @@ pub fn li2024(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproduction>
 /// What is run.
 struct Plan {
     methods: Vec<Method>,
-    /// Names of methods that this build does not know.
-    unknown: Vec<&'static str>,
     ablation: Vec<Variant>,
     ground: Ground,
     /// The scenarios of the data set, or where they were looked for.
@@ -193,7 +188,7 @@ impl Plan {
     }
 
     fn intro(&self) -> String {
-        let mut intro = format!(
+        format!(
             "All methods drive the route of `{}`, {:.1} m over cells, with the 1 m wide `lei2020` \
              vehicle: start heading exact, goal heading any, {} runs per method. `certified` \
              counts runs whose path the judge certified for the whole swept body; everything else \
@@ -202,15 +197,7 @@ impl Plan {
             self.ground.map,
             shortest_m(&self.ground).unwrap_or_default(),
             self.scale.n_runs
-        );
-        if !self.unknown.is_empty() {
-            let _ = write!(
-                intro,
-                " This build does not know the methods {}: they are left out.",
-                self.unknown.join(", ")
-            );
-        }
-        intro
+        )
     }
 
     /// What concerns the proposed method alone; nothing if this build does not know it.

@@ -30,7 +30,6 @@ fn plan() -> Plan {
             method("elitist", Native::Nodes, Generations::Record),
             method("lei2020", Native::Nodes, Generations::Ways),
         ],
-        unknown: vec!["faco2024"],
         ablation: vec![lei2020("20 ants", 20), lei2020("10 ants", 10)],
         ground: Ground::builtin("lei-map1").unwrap(),
         hood: Err("data/car/hood_800x500.json".into()),
@@ -56,7 +55,7 @@ fn tables_and_figures_come_from_the_rows() {
     assert_eq!(reproduction.n_runs, 4 * 2 + 2 * 3);
     assert_eq!(reproduction.csv.lines().count(), 1 + reproduction.n_runs);
     let report = &reproduction.report;
-    assert!(report.intro.contains("does not know the methods faco2024"));
+    assert!(report.intro.contains("2 runs per method"));
     let lengths = table(report, "length");
     assert_eq!(lengths.rows.len(), 4);
     let hybrid = &lengths.rows[1];
