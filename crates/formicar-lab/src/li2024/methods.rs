@@ -65,7 +65,7 @@ pub(super) fn methods() -> Vec<Method> {
         (Aga, Native::Nodes, Generations::Record),
         (Aco, Native::Nodes, Generations::Ways),
         (Acof, Native::Curve, Generations::Ways),
-        (Faco2024, Native::Nodes, Generations::Record),
+        (Faco2024, Native::Cells, Generations::Record),
     ]
     .map(method)
     .to_vec()

@@ -47,7 +47,7 @@ pub fn faco2024() -> ChordConfig {
         deposit: SpreadDeposit::default(),
         cost: SteeringCost::default(),
         stopping: Stopping {
-            stall_iterations: 5,
+            stall_iterations: 3,
             least_gain: 2e-3,
             target_cost: 0.0,
         },

@@ -12,8 +12,6 @@ const MOVES_RADII: [f64; 4] = [0.6, 0.3, 0.12, 0.05];
 const MAX_PASSES: usize = 4;
 /// What a change must gain, metres.
 const LEAST_GAIN_M: f64 = 1e-6;
-/// How many tighter arcs are tried at a moved corner.
-const MAX_TIGHTER: i32 = 8;
 
 /// Points with an arc at each but the first and the last.
 #[derive(Clone, Debug)]
@@ -159,13 +157,12 @@ impl Chain {
         let legs = corners(&to).start() - 1..=*corners(&to).end();
         // The widest arcs cost least: without them there is nothing to gain.
         to.tightness_m[legs.clone()].fill(0.0);
-        let gains = |to: &Self| to.cost(task, corners(to)) < known - LEAST_GAIN_M;
-        let is_better = to.round(task, corners(&to), false)
-            && gains(&to)
-            && to.round(task, corners(&to), true)
-            && gains(&to)
+        let limit = known - LEAST_GAIN_M;
+        let is_better = to.round(task, corners(&to), None)
+            && to.cost(task, corners(&to)) < limit
+            && to.round(task, corners(&to), Some(limit))
             && to.measure_legs(task, legs)
-            && gains(&to);
+            && to.cost(task, corners(&to)) < limit;
         if is_better {
             *self = to;
         }
@@ -183,38 +180,49 @@ impl Chain {
             .sum::<f64>()
     }
 
-    /// Gives some corners their widest arcs or, if `checked`, the widest that are free; whether
-    /// all have one.
-    fn round(&mut self, task: &Task, corners: RangeInclusive<usize>, checked: bool) -> bool {
-        let (first, last) = (*corners.start(), *corners.end());
-        for corner in corners {
+    /// Gives some corners their widest arcs or, below a limit of their cost, the widest that are
+    /// free; whether all have one.
+    fn round(&mut self, task: &Task, corners: RangeInclusive<usize>, limit: Option<f64>) -> bool {
+        corners.clone().all(|corner| {
             let turn_rad = angle_difference(self.heading_rad(corner), self.heading_rad(corner - 1));
-            // Corners beyond the range keep their arcs; those in it share their legs.
-            let room = |leg: usize, other: usize| {
-                let length_m = self.length_m(leg);
-                if other == 0 || other == self.points.len() - 1 {
-                    length_m
-                } else if (first..=last).contains(&other) {
-                    0.5 * length_m
-                } else {
-                    length_m - self.fillets[other - 1].tangent_m
+            let room_m = self.room_m(corner, &corners);
+            let Some(limit) = limit else {
+                let widest = Fillet::new(task, turn_rad, room_m, 0);
+                self.fillets[corner - 1] = widest.unwrap_or_default();
+                return widest.is_some();
+            };
+            for n_tighter in 0.. {
+                let Some(mut fillet) = Fillet::new(task, turn_rad, room_m, n_tighter) else {
+                    return false;
+                };
+                self.fillets[corner - 1] = fillet;
+                if self.cost(task, corners.clone()) >= limit {
+                    return false;
                 }
-            };
-            let room_m = room(corner - 1, corner - 1).min(room(corner, corner + 1));
-            let widest = (0..if checked { MAX_TIGHTER } else { 1 })
-                .map_while(|n| Fillet::new(task, turn_rad, room_m, n))
-                .find_map(|mut fillet| {
-                    if checked {
-                        fillet.tightness_m = self.arc_tightness_m(task, corner, &fillet)?;
-                    }
-                    Some(fillet)
-                });
-            let Some(fillet) = widest else {
-                return false;
-            };
-            self.fillets[corner - 1] = fillet;
-        }
-        true
+                if let Some(tightness_m) = self.arc_tightness_m(task, corner, &fillet) {
+                    fillet.tightness_m = tightness_m;
+                    self.fillets[corner - 1] = fillet;
+                    return true;
+                }
+            }
+            false
+        })
+    }
+
+    /// Room for a corner's arc on the shorter of both legs, metres: corners beyond a range keep
+    /// their arcs, those in it share their legs.
+    fn room_m(&self, corner: usize, range: &RangeInclusive<usize>) -> f64 {
+        let room = |leg: usize, other: usize| {
+            let length_m = self.length_m(leg);
+            if other == 0 || other == self.points.len() - 1 {
+                length_m
+            } else if range.contains(&other) {
+                0.5 * length_m
+            } else {
+                length_m - self.fillets[other - 1].tangent_m
+            }
+        };
+        room(corner - 1, corner - 1).min(room(corner, corner + 1))
     }
 
     fn arc_tightness_m(&self, task: &Task, corner: usize, fillet: &Fillet) -> Option<f64> {

@@ -310,9 +310,11 @@ impl Search<'_> {
             return;
         };
         let ends_m = self.legs[leg].sight.distance_m - fillet.tangent_m;
-        let straight = self.straight_tightness_m(leg, ends_m);
-        let arc = straight.and_then(|_| self.arc_tightness_m(leg, ends_m, &fillet));
-        let Some((straight_m, arc_m)) = straight.zip(arc) else {
+        // A tighter arc would only make the straight before it longer.
+        let Some(straight_m) = self.straight_tightness_m(leg, ends_m) else {
+            return;
+        };
+        let Some(arc_m) = self.arc_tightness_m(leg, ends_m, &fillet) else {
             self.open_turn(leg, next, radius + 1, cost);
             return;
         };
