@@ -29,7 +29,7 @@ const FILM_WIDTH_PX: u32 = 560;
 
 /// Whether a planner has ants.
 pub(crate) fn check(planner: PlannerName) -> Result<()> {
-    if planner.colony().is_none() {
+    if !planner.has_ants() {
         bail!(
             "--ants: {} is no colony and has no ants; hint: --planner lei2020 (see `list planners`)",
             planner.name()
@@ -83,7 +83,7 @@ fn caption(answer: &Answer, stages: &Stages) -> String {
     let n_turned = stages.corners.iter().filter(is_turned).count();
     if !stages.corners.is_empty() {
         let n_corners = stages.corners.len();
-        parts.push(format!("{n_turned} of {n_corners} corners by 2-turning"));
+        parts.push(format!("{n_turned} of {n_corners} corners by arcs"));
     }
     if let Some(metrics) = &answer.metrics {
         parts.push(format!("{:.2} m", metrics.length_m));

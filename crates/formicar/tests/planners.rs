@@ -125,7 +125,7 @@ fn a_budget_stops_it() {
             plan_with(name, &case, &request, &mut ())
         };
         assert_eq!(limited(all_steps).status(), Status::Found, "{name:?}");
-        if name.colony().is_some() || name == PlannerName::Faco2024 {
+        if name.has_ants() {
             assert_colony_stops(&limited(all_steps / 2), all_steps / 2);
             assert_eq!(limited(1).status(), Status::BudgetExhausted, "{name:?}");
             continue;

@@ -54,7 +54,7 @@ pub(crate) fn evaporation() -> Picture {
         ),
     ];
     let series = rules.into_iter().map(|(name, rule)| {
-        let rho = |i| Point2::new(f64::from(i + 1), rule.rho(i, i));
+        let rho = |i| Point2::new(f64::from(i + 1), rule.rho(i, 150, i));
         (name, (0..150).map(rho).collect())
     });
     charts(

@@ -176,6 +176,11 @@ impl PlannerName {
         }
     }
 
+    /// Whether it sends ants.
+    pub fn has_ants(self) -> bool {
+        self == Self::Faco2024 || self.colony().is_some()
+    }
+
     /// The colony over cells of this name; none if it is no such colony.
     pub fn colony(self) -> Option<ColonyConfig> {
         match self {

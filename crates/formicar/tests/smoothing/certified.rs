@@ -13,7 +13,7 @@ use formicar::vehicle::Vehicle;
 use std::path::Path;
 
 /// The request with each mix of headings and gears.
-fn variants(start: Pose2, goal: Pose2) -> Vec<Request> {
+pub(super) fn variants(start: Pose2, goal: Pose2) -> Vec<Request> {
     let mut requests = Vec::new();
     for motion in [MotionMode::Forward, MotionMode::Reverse] {
         for (start_heading, goal_heading) in [

@@ -11,6 +11,7 @@ mod certified;
 mod headings;
 mod reasons;
 mod splines;
+mod wide_arcs;
 
 use formicar::collision::ObstacleMap;
 use formicar::geometry::Pose2;

@@ -128,6 +128,12 @@ fn ants(chapter: Chapter) -> Result<Vec<Case>> {
             "Ants where a robot works: 400 000 cells, obstacles grown by half its width, then arcs \
              and curves for its true footprint.",
         )?,
+        by(
+            PlannerName::Faco2024,
+            "li-neighborhood",
+            "Li et al. 2024: ants that step by chords as a suspended car steers, over 400 000 \
+             cells, and the fewest and widest arcs that keep a margin.",
+        )?,
     ])
 }
 

@@ -165,7 +165,7 @@ impl<'a> ChordWalker<'a> {
             let length_m = self.ground.length_m(step);
             (step, self.ground.asked(0.0, length_m), length_m)
         });
-        self.draw_among(shared, stream, at, meter, free)
+        self.draw_among(shared, stream, (at, meter), free)
     }
 
     fn draw(
@@ -181,7 +181,7 @@ impl<'a> ChordWalker<'a> {
                 let step = usize::from(step);
                 (step, ground.turn(last, step), ground.length_m(step))
             });
-            return self.draw_among(shared, stream, at, meter, followers);
+            return self.draw_among(shared, stream, (at, meter), followers);
         }
         let heading_rad = self.heading_rad(last);
         let from = self.position_m(at, last);
@@ -191,15 +191,14 @@ impl<'a> ChordWalker<'a> {
             let turn_rad = heading_rad.map_or(0.0, |h| angle_difference(chord.angle(), h));
             (step, ground.asked(turn_rad, chord.norm()), chord.norm())
         });
-        self.draw_among(shared, stream, at, meter, first)
+        self.draw_among(shared, stream, (at, meter), first)
     }
 
     fn draw_among(
         &mut self,
         shared: &Shared,
         stream: &mut RandomStream,
-        at: Cell,
-        meter: &SteeringMeter,
+        (at, meter): (Cell, &SteeringMeter),
         steps: impl Iterator<Item = (usize, Turn, f64)>,
     ) -> Option<Candidate> {
         let ground = self.ground;

@@ -138,7 +138,7 @@ impl Search<'_> {
     /// Opens what begins at the start.
     fn open_start(&mut self) {
         for sight in self.sights.from(0).to_vec() {
-            self.close(0, sight, Reached::AtStart, 0.0, 0.0);
+            self.close((0, sight), (Reached::AtStart, 0.0), 0.0);
         }
         if self.task.ends.start_is_free {
             return;
@@ -224,7 +224,7 @@ impl Search<'_> {
         }
         if let Some(tightness_m) = self.task.tightness_m(*start, arcs.arcs()) {
             let cost = cost + switch + tightness_m;
-            self.close(from, sight, Reached::ByCurve(curve), 0.0, cost);
+            self.close((from, sight), (Reached::ByCurve(curve), 0.0), cost);
         }
     }
 
@@ -233,7 +233,12 @@ impl Search<'_> {
     }
 
     /// Keeps a leg that is reached at a cost, and opens what may follow it.
-    fn close(&mut self, from: usize, sight: Sight, reached: Reached, begins_m: f64, cost: f64) {
+    fn close(
+        &mut self,
+        (from, sight): (usize, Sight),
+        (reached, begins_m): (Reached, f64),
+        cost: f64,
+    ) {
         let number = self.legs.len();
         self.closed.insert((from, sight.to), number);
         self.legs.push(Leg {
@@ -319,13 +324,8 @@ impl Search<'_> {
             return;
         };
         let cost = cost + fillet.cost(self.task) + straight_m + arc_m;
-        self.close(
-            from,
-            next,
-            Reached::FromLeg(leg, fillet),
-            fillet.tangent_m,
-            cost,
-        );
+        let reached = (Reached::FromLeg(leg, fillet), fillet.tangent_m);
+        self.close((from, next), reached, cost);
     }
 
     /// The pose on a leg, some metres from its beginning.
