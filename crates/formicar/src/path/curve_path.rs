@@ -1,6 +1,6 @@
 //! A drivable curve: straight lines and arcs, each driven forward or in reverse.
 
-use crate::geometry::{Point2, Pose2};
+use crate::geometry::{Arc, Point2, Pose2};
 use serde::{Deserialize, Serialize};
 
 /// The gear.
@@ -124,6 +124,20 @@ impl CurvePath {
             .first()
             .map_or(Pose2::default(), |&p| Pose2::at(p, 0.0));
         Self::from_segments(lines.first().map_or(at_rest, |line| line.start), lines)
+    }
+
+    /// The path of arcs that are driven one after the other.
+    pub fn from_arcs<'a>(start: Pose2, arcs: impl IntoIterator<Item = &'a Arc>) -> Self {
+        let mut path = Self::new(start);
+        for arc in arcs {
+            let direction = if arc.signed_length_m < 0.0 {
+                Direction::Reverse
+            } else {
+                Direction::Forward
+            };
+            path.push(arc.curvature_per_m, arc.length_m(), direction);
+        }
+        path
     }
 
     /// Drives on; merges with the last segment where curvature and gear are the same.

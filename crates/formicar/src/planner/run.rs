@@ -1,10 +1,9 @@
 //! From a request to a certified path: search, curve, judge, metrics.
 
 use super::{NotFound, Outcome, Plan, PlanError, Planner, PlannerName, Stages};
-use crate::geometry::{Arc, Pose2};
 use crate::metrics::{ClearanceSummary, PathMetrics};
 use crate::numeric::Seed;
-use crate::path::{CurvePath, Direction};
+use crate::path::CurvePath;
 use crate::progress::{Event, Limits, Status};
 use crate::scenario::{Request, StartHeading};
 use crate::search::{HybridProblem, hybrid_astar};
@@ -91,7 +90,7 @@ impl Planner {
                 StartHeading::Any => self.obstacles.frame().to_world(start).wrapped(),
             };
             Found {
-                path: curve(start, &arcs),
+                path: CurvePath::from_arcs(start, &arcs),
                 stages: Stages::default(),
             }
         }))
@@ -162,17 +161,4 @@ impl Planner {
             }
         }
     }
-}
-
-fn curve(start: Pose2, arcs: &[Arc]) -> CurvePath {
-    let mut path = CurvePath::new(start);
-    for arc in arcs {
-        let direction = if arc.signed_length_m < 0.0 {
-            Direction::Reverse
-        } else {
-            Direction::Forward
-        };
-        path.push(arc.curvature_per_m, arc.length_m(), direction);
-    }
-    path
 }

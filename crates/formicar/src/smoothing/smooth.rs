@@ -9,9 +9,9 @@ use super::task::{Ends, Task};
 use super::wide_arcs::{WideWay, widest};
 use super::{Corners, SmoothingConfig, SmoothingError, TwoTurning};
 use crate::collision::{Body, Drive, ObstacleMap};
-use crate::geometry::{Arc, Point2, Pose2};
+use crate::geometry::{Point2, Pose2};
 use crate::map::{BitGrid, Cell, DiagonalRule};
-use crate::path::{CurvePath, Direction, WaypointPath};
+use crate::path::{CurvePath, WaypointPath};
 use crate::scenario::{GoalHeading, Request, StartHeading};
 use crate::vehicle::{Motion, Vehicle};
 
@@ -189,7 +189,7 @@ fn assembled(ground: &Ground, request: &Request, map: &Roadmap, pieces: &[Piece]
         (StartHeading::Any, Some(first)) => frame.to_world(first.start).wrapped(),
         _ => request.start,
     };
-    let path = driven(start, pieces.iter().flat_map(|piece| &piece.arcs));
+    let path = CurvePath::from_arcs(start, pieces.iter().flat_map(|piece| &piece.arcs));
     let waypoints = world_points(ground, &map.line.points);
     let mut corners: Vec<CornerRecord> = (0..map.line.n_corners())
         .map(|corner| CornerRecord {
@@ -220,24 +220,10 @@ fn by_wide_arcs(ground: &Ground, request: &Request, way: &WideWay) -> Smoothed {
         rounding: Rounding::TwoTurning(corner.turning),
     });
     Smoothed {
-        path: driven(start, &way.arcs),
+        path: CurvePath::from_arcs(start, &way.arcs),
         waypoints: world_points(ground, &way.points),
         corners: corners.collect(),
     }
-}
-
-/// The curve of arcs driven one after the other.
-fn driven<'a>(start: Pose2, arcs: impl IntoIterator<Item = &'a Arc>) -> CurvePath {
-    let mut path = CurvePath::new(start);
-    for arc in arcs {
-        let direction = if arc.signed_length_m < 0.0 {
-            Direction::Reverse
-        } else {
-            Direction::Forward
-        };
-        path.push(arc.curvature_per_m, arc.length_m(), direction);
-    }
-    path
 }
 
 pub(super) fn world_points(ground: &Ground, points: &[Point2]) -> WaypointPath {

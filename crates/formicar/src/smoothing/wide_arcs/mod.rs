@@ -7,6 +7,7 @@
 //! Reeds-Shepp curves lead from a given start heading onto a leg, and from a leg to a given goal
 //! heading. What is found is then made better by moving its corners about.
 
+mod ends;
 mod fillet;
 mod refine;
 mod search;

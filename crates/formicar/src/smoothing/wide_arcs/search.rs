@@ -13,14 +13,8 @@ use std::collections::HashMap;
 const LEG_RADII: f64 = 100.0;
 /// How much of a leg a corner may take where it cannot do with half.
 const CROWDED_SHARE: f64 = 0.95;
-/// How far from the ends curves to given headings begin and end, turning radii.
-const CURVE_REACH_RADII: f64 = 5.0;
 /// Where the first corner may be on the line of the start's heading, turning radii.
 const LEAD_RADII: [f64; 7] = [0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0];
-/// Radii of these curves, in turning radii.
-const CURVE_RADII: [f64; 3] = [1.0, 2.0, 4.0];
-/// How many of these curves are tried between two poses, cheapest first.
-const MAX_CURVES: usize = 6;
 
 /// A corner and how it is rounded.
 #[derive(Clone, Copy, Debug)]
@@ -85,7 +79,7 @@ pub(in super::super) fn widest(task: &Task, polyline: &[Point2]) -> Option<WideW
 
 /// What waits on the list: points, legs and curves by number.
 #[derive(Clone, Copy)]
-enum Step {
+pub(super) enum Step {
     /// Some curve from the start onto a leg, at a lower bound of its cost.
     Lead(usize, Sight),
     /// A curve from the start onto a leg.
@@ -102,7 +96,7 @@ enum Step {
 
 /// How a leg is reached.
 #[derive(Clone, Copy)]
-enum Reached {
+pub(super) enum Reached {
     /// It begins at the start.
     AtStart,
     /// By a curve from the start.
@@ -111,9 +105,9 @@ enum Reached {
     FromLeg(usize, Fillet),
 }
 
-struct Leg {
+pub(super) struct Leg {
     from: usize,
-    sight: Sight,
+    pub(super) sight: Sight,
     reached: Reached,
     /// Where on the leg what leads to it ends, metres.
     begins_m: f64,
@@ -124,116 +118,23 @@ struct Leg {
     tightness_m: f64,
 }
 
-struct Search<'a> {
-    task: &'a Task<'a>,
-    sights: Sights,
-    open: OpenList<Step>,
-    legs: Vec<Leg>,
+pub(super) struct Search<'a> {
+    pub(super) task: &'a Task<'a>,
+    pub(super) sights: Sights,
+    pub(super) open: OpenList<Step>,
+    pub(super) legs: Vec<Leg>,
     closed: HashMap<(usize, usize), usize>,
     /// Curves with the poses from which they are driven.
-    curves: Vec<(Pose2, Curve)>,
+    pub(super) curves: Vec<(Pose2, Curve)>,
 }
 
 impl Search<'_> {
-    /// Opens what begins at the start.
-    fn open_start(&mut self) {
-        for sight in self.sights.from(0).to_vec() {
-            self.close((0, sight), (Reached::AtStart, 0.0), 0.0);
-        }
-        if self.task.ends.start_is_free {
-            return;
-        }
-        let corner_m = self.corner_m();
-        let start = self.sights.points[0];
-        let near = self
-            .sights
-            .after_start()
-            .filter(|&i| self.is_near(start, i));
-        for from in near.collect::<Vec<_>>() {
-            let least = start.distance(self.sights.points[from]) + corner_m;
-            for sight in self.sights.from(from).to_vec() {
-                let remaining = sight.distance_m + self.sights.rest_m(sight.to);
-                self.open.push([least, remaining], Step::Lead(from, sight));
-            }
-        }
-    }
-
-    fn is_near(&self, end: Point2, point: usize) -> bool {
-        let reach_m = CURVE_REACH_RADII * self.task.radius_m;
-        end.distance(self.sights.points[point]) <= reach_m
-    }
-
-    fn corner_m(&self) -> f64 {
-        self.task.config.corner_radii * self.task.radius_m
-    }
-
-    /// Puts the cheapest curves from the start onto a leg on the list.
-    fn expand_lead(&mut self, from: usize, sight: Sight) {
-        if self.is_closed(from, sight) {
-            return;
-        }
-        let to = Pose2::at(self.sights.points[from], sight.heading_rad);
-        let remaining = sight.distance_m + self.sights.rest_m(sight.to);
-        for (cost, start, curve) in self.cheapest_curves(&self.task.ends.starts, &[to]) {
-            let number = self.curves.len();
-            self.curves.push((start, curve));
-            let step = Step::LeadCurve(from, sight, number);
-            self.open.push([cost, remaining], step);
-        }
-    }
-
-    /// The cheapest curves from one of some poses to one of others.
-    fn cheapest_curves(&self, from: &[Pose2], to: &[Pose2]) -> Vec<(f64, Pose2, Curve)> {
-        let mut curves = Vec::new();
-        for (&a, &b) in from.iter().flat_map(|a| to.iter().map(move |b| (a, b))) {
-            for radii in CURVE_RADII {
-                let words = self.task.words_at(a, b, radii * self.task.radius_m);
-                curves.extend(
-                    words
-                        .into_iter()
-                        .map(|curve| (self.curve_cost(&curve), a, curve)),
-                );
-            }
-        }
-        curves.sort_by(|a, b| a.0.total_cmp(&b.0));
-        curves.truncate(MAX_CURVES);
-        curves
-    }
-
-    /// A curve's cost: driving, and for each arc a corner's share and its bend.
-    fn curve_cost(&self, curve: &Curve) -> f64 {
-        let radius_m = self.task.radius_m;
-        let bends = curve.arcs().iter().filter(|arc| arc.curvature_per_m != 0.0);
-        let bends = bends.map(|arc| {
-            let bend = (arc.curvature_per_m * radius_m).powi(2) * arc.length_m();
-            self.corner_m() + self.task.config.bend_weight * bend
-        });
-        self.task.word_cost(curve, [0.0; 2]) + bends.sum::<f64>()
-    }
-
-    fn try_lead(&mut self, from: usize, sight: Sight, curve: usize, cost: f64) {
-        let (start, arcs) = &self.curves[curve];
-        let ends_forward = |arcs: &[Arc]| arcs.last().is_none_or(|arc| arc.signed_length_m > 0.0);
-        let switch = if ends_forward(arcs.arcs()) {
-            0.0
-        } else {
-            self.task.config.direction_switching_cost
-        };
-        if self.is_closed(from, sight) {
-            return;
-        }
-        if let Some(tightness_m) = self.task.tightness_m(*start, arcs.arcs()) {
-            let cost = cost + switch + tightness_m;
-            self.close((from, sight), (Reached::ByCurve(curve), 0.0), cost);
-        }
-    }
-
-    fn is_closed(&self, from: usize, sight: Sight) -> bool {
+    pub(super) fn is_closed(&self, from: usize, sight: Sight) -> bool {
         self.closed.contains_key(&(from, sight.to))
     }
 
     /// Keeps a leg that is reached at a cost, and opens what may follow it.
-    fn close(
+    pub(super) fn close(
         &mut self,
         (from, sight): (usize, Sight),
         (reached, begins_m): (Reached, f64),
@@ -329,7 +230,7 @@ impl Search<'_> {
     }
 
     /// The pose on a leg, some metres from its beginning.
-    fn pose(&self, leg: usize, at_m: f64) -> Pose2 {
+    pub(super) fn pose(&self, leg: usize, at_m: f64) -> Pose2 {
         let Leg { from, sight, .. } = self.legs[leg];
         Pose2::at(self.sights.points[from], sight.heading_rad).advance(0.0, at_m)
     }
@@ -367,23 +268,7 @@ impl Search<'_> {
             .tightness_m(self.pose(leg, from_m), &[fillet.arc()])
     }
 
-    /// Puts the cheapest curves from the end of a leg to the goal on the list.
-    fn expand_tail(&mut self, leg: usize, cost: f64) {
-        let from = self.pose(leg, self.legs[leg].sight.distance_m);
-        for (curve_cost, start, curve) in self.cheapest_curves(&[from], &self.task.ends.goals) {
-            let number = self.curves.len();
-            self.curves.push((start, curve));
-            self.open
-                .push([cost + curve_cost, 0.0], Step::TailCurve(leg, number));
-        }
-    }
-
-    fn is_tail_free(&mut self, leg: usize, curve: usize) -> bool {
-        let (start, curve) = &self.curves[curve];
-        self.task.all_free(*start, curve.arcs()) && self.is_whole_leg_free(leg)
-    }
-
-    fn is_whole_leg_free(&mut self, leg: usize) -> bool {
+    pub(super) fn is_whole_leg_free(&mut self, leg: usize) -> bool {
         let length_m = self.legs[leg].sight.distance_m;
         self.straight_tightness_m(leg, length_m).is_some()
     }
