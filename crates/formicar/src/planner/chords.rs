@@ -3,6 +3,7 @@
 use super::run::{Ended, Found};
 use super::{PlanError, Planner, PlannerName, Stages};
 use crate::colony::chord::{ChordConfig, ChordProblem, Safety, run_chords};
+use crate::colony::dead_end::DeadEnd;
 use crate::colony::{RunError, Stop};
 use crate::geometry::Pose2;
 use crate::map::{BitGrid, Cell, DiagonalRule, MoveMasks, ring};
@@ -13,6 +14,9 @@ use crate::scenario::{Request, StartHeading};
 use crate::search::SearchError;
 use crate::smoothing::{Ground, SmoothingError, smooth};
 use crate::vehicle::Motion;
+
+/// How many times as many steps back are allowed when ants have failed.
+const PATIENT_RETREAT: u32 = 20;
 
 /// One way of sending the colony.
 #[derive(Clone)]
@@ -57,8 +61,8 @@ impl Planner {
         Ok(Err(last))
     }
 
-    /// What is tried in turn: ever less growth, no margin, and a start where the vehicle changes
-    /// gear.
+    /// What is tried in turn: ever less growth, more patience in dead ends, no margin, and a start
+    /// where the vehicle changes gear.
     fn attempts(&self, request: &Request) -> Vec<Attempt> {
         let config = &self.config.chords;
         let exact = request.start_heading == StartHeading::Exact;
@@ -70,6 +74,10 @@ impl Planner {
         let mut attempts: Vec<Attempt> = config.growth_radii.iter().map(attempt).collect();
         let last_growth = config.growth_radii[config.growth_radii.len() - 1];
         let mut last = attempt(&last_growth);
+        if let DeadEnd::Retreat(rule) = &mut last.config.dead_end {
+            rule.max_steps = rule.max_steps.saturating_mul(PATIENT_RETREAT);
+        }
+        attempts.push(last.clone());
         if let Safety::Footprint(rule) = &mut last.config.safety
             && rule.margin_cells > 0.0
         {
