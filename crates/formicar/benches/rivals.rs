@@ -1,4 +1,4 @@
-//! Speed of whole queries on a generated neighborhood: the rivals of ant colonies, beside A*.
+//! Speed of whole queries on a generated neighborhood: Li et al. 2024 and its rivals, beside A*.
 
 use divan::{Bencher, black_box};
 use formicar::map::generate::{NeighborhoodParameters, alley_neighborhood, free_pose_pairs};
@@ -13,7 +13,9 @@ fn main() {
 
 /// A sedan on 800 x 500 cells of 0.2 m, from one end of the longest of ten ways to the other: the
 /// shortest path over cells, everything else, smoothing and the judge.
-#[divan::bench(args = ["astar", "dijkstra", "improved-astar", "ga", "aga"])]
+#[divan::bench(args = [
+    "astar", "dijkstra", "improved-astar", "ga", "aga", "aco", "faco2024",
+])]
 fn hood_800x500(bencher: Bencher, planner: &str) {
     let map = alley_neighborhood(&NeighborhoodParameters::default(), Seed(1)).expect("a map");
     let vehicle = Vehicle::sedan();

@@ -4,6 +4,9 @@ use crate::geometry::{ConvexPolygon, Point2, Pose2};
 use crate::map::{BitGrid, Cell};
 use crate::vehicle::Vehicle;
 
+/// What counts as contact, cells: more than coordinates lose when they are turned.
+const ROUNDING: f64 = 1e-9;
+
 /// For each of some straight steps from cell center to cell center the cells that the body sweeps,
 /// heading along the step.
 ///
@@ -71,8 +74,8 @@ impl Mask {
         let polygon = ConvexPolygon::new(&corners.collect::<Vec<_>>()).expect("scaled, not bent");
         let (low, high) = polygon.bounds();
         // A cell's square reaches half a cell from its center; closed squares touch at ties.
-        let first = |v: f64| (v - 0.5).ceil() as i64;
-        let last = |v: f64| (v + 0.5).floor() as i64;
+        let first = |v: f64| (v - 0.5 - ROUNDING).ceil() as i64;
+        let last = |v: f64| (v + 0.5 + ROUNDING).floor() as i64;
         let (low, high) = ((first(low.x), first(low.y)), (last(high.x), last(high.y)));
         let (n_cols, n_rows) = ((high.0 - low.0 + 1) as usize, (high.1 - low.1 + 1) as usize);
         let words_per_row = n_cols.div_ceil(64);
@@ -135,15 +138,16 @@ fn hits(mask: &[u64], obstacles: &[u64], shift: usize) -> u64 {
 /// them.
 fn touches_square(polygon: &ConvexPolygon, center: Point2) -> bool {
     let (low, high) = polygon.bounds();
-    let beside = low.x > center.x + 0.5
-        || high.x < center.x - 0.5
-        || low.y > center.y + 0.5
-        || high.y < center.y - 0.5;
+    let half = 0.5 + ROUNDING;
+    let beside = low.x > center.x + half
+        || high.x < center.x - half
+        || low.y > center.y + half
+        || high.y < center.y - half;
     !beside
         && polygon.edges().all(|(a, b)| {
             // The inside lies to the left, and the square's deepest corner half a cell farther.
             let edge = b - a;
-            edge.cross(center - a) + 0.5 * (edge.x.abs() + edge.y.abs()) >= 0.0
+            edge.cross(center - a) + half * (edge.x.abs() + edge.y.abs()) >= 0.0
         })
 }
 

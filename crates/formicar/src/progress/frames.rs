@@ -173,8 +173,8 @@ pub fn pheromone_by_cell(by_step: &[f32], n_cols: usize) -> Vec<f32> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Pheromone;
     use super::*;
+    use crate::progress::Pheromone;
 
     const WAYS: AntWays = AntWays {
         start: Cell::new(0, 0),

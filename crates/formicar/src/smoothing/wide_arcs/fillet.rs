@@ -1,8 +1,8 @@
 //! The arc that rounds a corner, and what it costs.
 
-use super::super::task::Task;
-use super::super::{TurnOrder, TwoTurning};
 use crate::geometry::Arc;
+use crate::smoothing::task::Task;
+use crate::smoothing::{TurnOrder, TwoTurning};
 use std::f64::consts::PI;
 
 /// Factor from an arc's radius to the next one tried.

@@ -1,9 +1,9 @@
 //! A chain of legs and arcs made cheaper by moving and leaving out corners.
 
-use super::super::task::Task;
 use super::fillet::Fillet;
 use super::search::Rounded;
 use crate::geometry::{Arc, Point2, Pose2, angle_difference};
+use crate::smoothing::task::Task;
 use std::ops::RangeInclusive;
 
 /// How far corners are moved, in turning radii, ever less.

@@ -1,12 +1,12 @@
 //! A* over legs and the arcs between them.
 
-use super::super::TwoTurning;
-use super::super::open_list::OpenList;
-use super::super::task::Task;
 use super::fillet::Fillet;
 use super::refine::Chain;
 use super::sight::{Sight, Sights};
 use crate::geometry::{Arc, Curve, Point2, Pose2, angle_difference};
+use crate::smoothing::TwoTurning;
+use crate::smoothing::open_list::OpenList;
+use crate::smoothing::task::Task;
 use std::collections::HashMap;
 
 /// The longest leg, turning radii.
@@ -18,23 +18,23 @@ const LEAD_RADII: [f64; 7] = [0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0];
 
 /// A corner and how it is rounded.
 #[derive(Clone, Copy, Debug)]
-pub(in super::super) struct Rounded {
-    pub(in super::super) place: Point2,
-    pub(in super::super) turning: TwoTurning,
+pub(in crate::smoothing) struct Rounded {
+    pub(in crate::smoothing) place: Point2,
+    pub(in crate::smoothing) turning: TwoTurning,
 }
 
 /// A way of straight lines, arcs and curves.
 #[derive(Clone, Debug)]
-pub(in super::super) struct WideWay {
-    pub(in super::super) start: Pose2,
-    pub(in super::super) arcs: Vec<Arc>,
-    pub(in super::super) points: Vec<Point2>,
-    pub(in super::super) corners: Vec<Rounded>,
+pub(in crate::smoothing) struct WideWay {
+    pub(in crate::smoothing) start: Pose2,
+    pub(in crate::smoothing) arcs: Vec<Arc>,
+    pub(in crate::smoothing) points: Vec<Point2>,
+    pub(in crate::smoothing) corners: Vec<Rounded>,
 }
 
 /// The way of least cost through some of the points of a polyline, its ends among them, with the
 /// headings asked for; none where no such way is free.
-pub(in super::super) fn widest(task: &Task, polyline: &[Point2]) -> Option<WideWay> {
+pub(in crate::smoothing) fn widest(task: &Task, polyline: &[Point2]) -> Option<WideWay> {
     let (config, radius_m) = (task.config, task.radius_m);
     let map = (
         task.obstacles.lethal(),
