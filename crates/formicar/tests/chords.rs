@@ -50,6 +50,15 @@ const GOAL: Pose2 = Pose2 {
 };
 
 fn run(map: &OccupancyGrid, config: &ChordConfig, n_threads: usize) -> ColonyRun {
+    run_watched(map, config, n_threads, &mut ())
+}
+
+fn run_watched(
+    map: &OccupancyGrid,
+    config: &ChordConfig,
+    n_threads: usize,
+    observer: &mut dyn Observer,
+) -> ColonyRun {
     let obstacles = ObstacleMap::new(map);
     let moves = MoveMasks::new(obstacles.lethal(), DiagonalRule::NoObstacles);
     let problem = ChordProblem {
@@ -60,8 +69,7 @@ fn run(map: &OccupancyGrid, config: &ChordConfig, n_threads: usize) -> ColonyRun
         start_heading_is_exact: true,
         goal: map.frame().cell_at(GOAL.position()).expect("on the map"),
     };
-    let mut nobody = ();
-    let mut limits = Limits::new(&mut nobody, None, None);
+    let mut limits = Limits::new(observer, None, None);
     run_chords(&problem, config, Seed(5), n_threads, &mut limits).expect("a run")
 }
 
@@ -109,18 +117,7 @@ proptest! {
         let config = ChordConfig { n_iterations: 2, ..ChordConfig::default() };
         let margin_m = 0.5 * RESOLUTION_M;
         let mut watch = Watch { vehicle: Vehicle::lei2020(), margin_m, lethal: map.lethal_cells(), n_steps: 0 };
-        let obstacles = ObstacleMap::new(&map);
-        let moves = MoveMasks::new(obstacles.lethal(), DiagonalRule::NoObstacles);
-        let problem = ChordProblem {
-            obstacles: &obstacles,
-            vehicle: &Vehicle::lei2020(),
-            moves: &moves,
-            start: START,
-            start_heading_is_exact: true,
-            goal: map.frame().cell_at(GOAL.position()).unwrap(),
-        };
-        let mut limits = Limits::new(&mut watch, None, None);
-        let _ = run_chords(&problem, &config, Seed(seed), 1, &mut limits);
+        run_watched(&map, &config, 1, &mut watch);
         prop_assert!(watch.n_steps > 100);
     }
 }
