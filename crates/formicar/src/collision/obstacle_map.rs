@@ -83,7 +83,14 @@ impl ObstacleMap {
     /// An upper bound of a standing body's clearance, metres, from one look at the distance
     /// transform; where it is negative, the body's inner disc certainly overlaps something.
     pub fn clearance_ceiling_m(&self, body: &Body, pose: Pose2) -> f64 {
-        self.obstacle_within_m(pose.transform(body.inner_center)) - body.inner_radius
+        self.ceiling_at_m(body, pose.position(), Point2::unit(pose.heading))
+    }
+
+    /// The same of a pose given as a position and a unit vector.
+    pub fn ceiling_at_m(&self, body: &Body, position: Point2, along: Point2) -> f64 {
+        let center = body.inner_center;
+        let center = position + along * center.x + along.perpendicular() * center.y;
+        self.obstacle_within_m(center) - body.inner_radius
     }
 
     /// The radius of a disc about a point that holds no part of a lethal square; 0 off the map.
@@ -136,14 +143,23 @@ impl ObstacleMap {
         )
     }
 
+    /// Squared distance in cells from a point's cell to the nearest obstacle; 0 off the map.
+    pub(super) fn squared_cells(&self, p: Point2) -> u16 {
+        self.squared_distance(p).unwrap_or(0)
+    }
+
     fn cell_distance(&self, p: Point2) -> Option<f64> {
+        self.squared_distance(p).map(|d| f64::from(d).sqrt())
+    }
+
+    fn squared_distance(&self, p: Point2) -> Option<u16> {
         let scale = 1.0 / self.frame.resolution_m();
         let (col, row) = (p.x * scale, p.y * scale);
         let inside = col >= 0.0
             && row >= 0.0
             && col < self.frame.n_cols() as f64
             && row < self.frame.n_rows() as f64;
-        inside.then(|| f64::from(self.distance.squared(col as usize, row as usize)).sqrt())
+        inside.then(|| self.distance.squared(col as usize, row as usize))
     }
 }
 

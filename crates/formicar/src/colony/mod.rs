@@ -14,6 +14,7 @@ pub mod corridor;
 mod crew;
 pub mod dead_end;
 pub mod deposit;
+pub mod drive;
 mod engine;
 pub mod evaporation;
 mod footmarks;

@@ -31,6 +31,27 @@ impl Arc {
         start.advance(self.curvature_per_m, self.signed_length_m)
     }
 
+    /// Positions and unit headings after equal pieces, `n_pieces` of them, by turning the last one
+    /// on: exact to rounding, without a sine per piece.
+    pub fn waypoints(
+        self,
+        start: Pose2,
+        n_pieces: usize,
+    ) -> impl Iterator<Item = (Point2, Point2)> {
+        let piece_m = self.signed_length_m / n_pieces as f64;
+        let step = Pose2::default().advance(self.curvature_per_m, piece_m);
+        let (turn, moved) = (Point2::unit(step.heading), step.position());
+        let first = (start.position(), Point2::unit(start.heading));
+        let places = iter::successors(Some(first), move |&(position, along)| {
+            let left = along.perpendicular();
+            Some((
+                position + along * moved.x + left * moved.y,
+                along * turn.x + left * turn.y,
+            ))
+        });
+        places.skip(1).take(n_pieces)
+    }
+
     /// The pose on an arc from `start` that is nearest to a point, for less than half a turn.
     pub fn nearest_from(self, start: Pose2, point: Point2) -> Pose2 {
         let local = start.relative(Pose2::at(point, 0.0)).position();
@@ -127,6 +148,21 @@ mod tests {
         let curve = Curve::of_word(2.0, word.into_iter());
         assert_eq!(curve.arcs(), [Arc::new(0.5, 3.0), Arc::new(0.5, -0.5)]);
         assert_eq!(curve.length_m(), 3.5);
+    }
+
+    #[test]
+    fn waypoints_are_the_poses_along() {
+        for arc in [Arc::new(0.3, 4.0), Arc::new(-0.7, -2.5), Arc::new(0.0, 3.0)] {
+            let start = Pose2::new(1.0, -2.0, 0.4);
+            let piece = |i: usize| arc.signed_length_m * (i + 1) as f64 / 50.0;
+            let waypoints: Vec<_> = arc.waypoints(start, 50).collect();
+            assert_eq!(waypoints.len(), 50);
+            for (i, (position, along)) in waypoints.into_iter().enumerate() {
+                let pose = start.advance(arc.curvature_per_m, piece(i));
+                assert!(position.distance(pose.position()) < 1e-12);
+                assert!(along.distance(Point2::unit(pose.heading)) < 1e-13);
+            }
+        }
     }
 
     #[test]

@@ -7,6 +7,7 @@
 mod closing;
 mod config;
 mod detour;
+mod drive_masks;
 mod expansion;
 mod hull;
 mod pockets;
@@ -16,6 +17,7 @@ mod u_shapes;
 use crate::map::{BitGrid, Cell, DiagonalRule, ring};
 
 pub use config::{Expansion, LayersConfig, MAX_EXPANSION_CELLS, UShapes};
+pub use drive_masks::DriveMasks;
 pub use expansion::obstacle_expansion;
 pub use swept_masks::SweptMasks;
 pub use u_shapes::{Pocket, PocketFate};

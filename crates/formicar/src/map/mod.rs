@@ -14,6 +14,7 @@ mod line_of_sight;
 mod move_masks;
 mod neighborhood;
 mod orientation;
+mod padded_grid;
 mod raster;
 mod sketch;
 mod step_cost;
@@ -28,5 +29,6 @@ pub use grid::{FREE, MAX_CELLS, MapError, OCCUPIED, OccupancyGrid, UNKNOWN, Unkn
 pub use line_of_sight::{cells_in_sight, line_of_sight, touched_cells};
 pub use move_masks::MoveMasks;
 pub use neighborhood::{Connectivity, DiagonalRule, STEPS, ring};
+pub use padded_grid::PaddedGrid;
 pub(crate) use step_cost::STEP_COSTS;
 pub use step_cost::{DIAGONAL_COST, STRAIGHT_COST};

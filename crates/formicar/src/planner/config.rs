@@ -2,6 +2,7 @@
 
 use super::sections;
 use crate::colony::chord::ChordConfig;
+use crate::colony::drive::DriveConfig;
 use crate::colony::{ColonyConfig, ColonyError, presets};
 use crate::evolution::EvolutionConfig;
 use crate::layers::{Expansion, LayersConfig, UShapes};
@@ -23,8 +24,11 @@ use thiserror::Error;
 pub struct PlannerConfig {
     /// The planner to use.
     pub planner: PlannerName,
-    /// Parameters of `hybrid-astar`.
+    /// Parameters of `hybrid-astar`, with the lattice and the costs of motions that `formicar`
+    /// shares.
     pub hybrid_astar: HybridAstarConfig,
+    /// The ants that drive, of `formicar`.
+    pub drive: DriveConfig,
     /// Which steps the planners over cells take: `astar`, `dijkstra`, `improved-astar`, and `ga`
     /// and `aga`, which measure themselves by the shortest path over cells.
     pub grid_search: GridSearchConfig,
@@ -64,8 +68,10 @@ impl<'de> Deserialize<'de> for PlannerConfig {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PlannerName {
-    /// Hybrid A* over motion primitives with analytic shots.
+    /// Ants that drive race hybrid A* to a first path.
     #[default]
+    Formicar,
+    /// Hybrid A* over motion primitives with analytic shots.
     HybridAstar,
     /// A* over cells, 8-connected.
     Astar,
@@ -101,7 +107,8 @@ pub enum PlannerName {
 
 impl PlannerName {
     /// All planners, the default first.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
+        Self::Formicar,
         Self::HybridAstar,
         Self::Astar,
         Self::Dijkstra,
@@ -123,6 +130,7 @@ impl PlannerName {
     /// The word used in files and on the command line.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Formicar => "formicar",
             Self::HybridAstar => "hybrid-astar",
             Self::Astar => "astar",
             Self::Dijkstra => "dijkstra",
@@ -145,6 +153,9 @@ impl PlannerName {
     /// What it does, in a line.
     pub fn about(self) -> &'static str {
         match self {
+            Self::Formicar => {
+                "ants that drive race hybrid A* to a first path, which is then improved"
+            }
             Self::HybridAstar => {
                 "hybrid A* over motion primitives, forward and in reverse, with analytic shots"
             }
@@ -184,7 +195,8 @@ impl PlannerName {
     /// The colony over cells of this name; none if it is no such colony.
     pub fn colony(self) -> Option<ColonyConfig> {
         match self {
-            Self::HybridAstar
+            Self::Formicar
+            | Self::HybridAstar
             | Self::Astar
             | Self::Dijkstra
             | Self::ImprovedAstar
@@ -253,6 +265,7 @@ impl PlannerConfig {
         Self {
             planner,
             hybrid_astar: HybridAstarConfig::default(),
+            drive: DriveConfig::default(),
             grid_search: GridSearchConfig::default(),
             layers: LayersConfig {
                 expansion: Expansion::HalfWidth,
@@ -275,6 +288,7 @@ impl PlannerConfig {
     /// The first parameter that is not, with value and range.
     pub fn check(&self) -> Result<(), ConfigError> {
         self.hybrid_astar.check()?;
+        self.drive.check()?;
         self.layers.check()?;
         self.colony.check()?;
         self.chords.check()?;

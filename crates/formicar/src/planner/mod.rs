@@ -10,6 +10,7 @@ mod evolve;
 mod explain;
 mod outcome;
 mod path_document;
+mod race;
 mod request_document;
 mod run;
 mod sections;
@@ -29,6 +30,7 @@ use crate::map::OccupancyGrid;
 use crate::numeric::Seed;
 use crate::progress::{Limits, Observer};
 use crate::scenario::{Request, Scenario};
+use crate::search::DriveGround;
 use crate::vehicle::Vehicle;
 use std::sync::Arc;
 
@@ -41,6 +43,8 @@ pub struct Planner {
     n_threads: usize,
     /// What searches over cells prepare and reuse.
     cells: Option<cells::PreparedCells>,
+    /// What searches that drive prepare and reuse.
+    drive_ground: Option<Arc<DriveGround>>,
 }
 
 impl Planner {
@@ -72,6 +76,7 @@ impl Planner {
             config,
             n_threads: 1,
             cells: None,
+            drive_ground: None,
         })
     }
 

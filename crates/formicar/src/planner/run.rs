@@ -6,9 +6,10 @@ use crate::numeric::Seed;
 use crate::path::CurvePath;
 use crate::progress::{Event, Limits, Status};
 use crate::scenario::{Request, StartHeading};
-use crate::search::{HybridProblem, hybrid_astar};
+use crate::search::{DriveGround, DriveProblem, hybrid_astar};
 use crate::validation::judge;
 use crate::vehicle::Motion;
+use std::sync::Arc;
 
 /// What a search found, before it is judged.
 pub(super) struct Found {
@@ -56,12 +57,15 @@ impl Planner {
         limits: &mut Limits,
     ) -> Result<Result<Found, Ended>, PlanError> {
         match self.config.planner {
+            PlannerName::Formicar if self.vehicle.motion() == Motion::Car => {
+                self.race(request, seed, limits)
+            }
             PlannerName::HybridAstar if self.vehicle.motion() == Motion::Car => {
                 self.drive(request, limits)
             }
-            PlannerName::HybridAstar => Err(PlanError::NeedsACar {
-                planner: PlannerName::HybridAstar,
-            }),
+            planner @ (PlannerName::Formicar | PlannerName::HybridAstar) => {
+                Err(PlanError::NeedsACar { planner })
+            }
             PlannerName::Astar | PlannerName::Dijkstra | PlannerName::ImprovedAstar => {
                 self.walk(request, limits)
             }
@@ -71,17 +75,23 @@ impl Planner {
         }
     }
 
+    /// The map prepared for the vehicle's motions, once.
+    pub(super) fn drive_ground(&mut self) -> Result<Arc<DriveGround>, PlanError> {
+        if let Some(ground) = &self.drive_ground {
+            return Ok(ground.clone());
+        }
+        let (obstacles, config) = (self.obstacles.clone(), &self.config.hybrid_astar);
+        let ground = Arc::new(DriveGround::new(obstacles, &self.vehicle, config)?);
+        Ok(self.drive_ground.insert(ground).clone())
+    }
+
     fn drive(
-        &self,
+        &mut self,
         request: &Request,
         limits: &mut Limits,
     ) -> Result<Result<Found, Ended>, PlanError> {
-        let problem = HybridProblem::new(
-            &self.obstacles,
-            &self.vehicle,
-            &self.config.hybrid_astar,
-            request,
-        )?;
+        let ground = self.drive_ground()?;
+        let problem = DriveProblem::new(&ground, &self.config.hybrid_astar, request);
         limits.tell(&Event::SearchStarted);
         let driven = hybrid_astar(&problem, limits).map_err(Ended::from);
         Ok(driven.map(|(start, arcs)| {

@@ -7,8 +7,9 @@ use serde::{Deserialize, Deserializer, Serializer};
 use serde_json::{Map, Value};
 
 /// Names of the sections.
-const SECTIONS: [&str; 8] = [
+const SECTIONS: [&str; 9] = [
     "hybrid_astar",
+    "drive",
     "grid_search",
     "improved_astar",
     "layers",
@@ -32,6 +33,7 @@ pub(super) fn write<S: Serializer>(
     for &name in sections_of(config.planner) {
         match name {
             "hybrid_astar" => map.serialize_entry(name, &config.hybrid_astar)?,
+            "drive" => map.serialize_entry(name, &config.drive)?,
             "grid_search" => map.serialize_entry(name, &config.grid_search)?,
             "improved_astar" => map.serialize_entry(name, &config.improved_astar)?,
             "layers" => map.serialize_entry(name, &config.layers)?,
@@ -47,6 +49,7 @@ pub(super) fn write<S: Serializer>(
 /// The sections that a planner uses.
 fn sections_of(planner: PlannerName) -> &'static [&'static str] {
     match planner {
+        PlannerName::Formicar => &["hybrid_astar", "drive"],
         PlannerName::HybridAstar => &["hybrid_astar"],
         PlannerName::Astar | PlannerName::Dijkstra => &["grid_search", "smoothing"],
         PlannerName::ImprovedAstar => &["grid_search", "improved_astar", "smoothing"],
@@ -73,6 +76,7 @@ pub(super) fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Planner
     Ok(PlannerConfig {
         planner,
         hybrid_astar: section(&mut given, "hybrid_astar", defaults.hybrid_astar)?,
+        drive: section(&mut given, "drive", defaults.drive)?,
         grid_search: section(&mut given, "grid_search", defaults.grid_search)?,
         improved_astar: section(&mut given, "improved_astar", defaults.improved_astar)?,
         layers: section(&mut given, "layers", defaults.layers)?,

@@ -181,7 +181,8 @@ impl<'a> Limits<'a> {
             observer: &mut *self.observer,
             budget_steps: None,
             deadline: self.deadline,
-            n_steps: 0,
+            // Short work does not look at the clock.
+            n_steps: 1,
         }
     }
 

@@ -68,6 +68,8 @@ pub struct PrimitiveSet {
     primitives: Vec<Primitive>,
     /// Per heading, per primitive.
     displacements: Vec<Point2>,
+    /// Per heading.
+    units: Vec<Point2>,
 }
 
 impl PrimitiveSet {
@@ -121,6 +123,7 @@ impl PrimitiveSet {
             gears,
             primitives: Vec::new(),
             displacements: Vec::new(),
+            units: Vec::new(),
         };
         Ok(set.filled())
     }
@@ -137,6 +140,8 @@ impl PrimitiveSet {
                 self.primitives.iter().map(end)
             })
             .collect();
+        let headings = (0..self.n_headings).map(|index| self.heading_rad(index));
+        self.units = headings.map(Point2::unit).collect();
         self
     }
 
@@ -188,6 +193,11 @@ impl PrimitiveSet {
     /// A lattice heading in `[0, 2 pi)`, radians.
     pub fn heading_rad(&self, heading_index: usize) -> f64 {
         heading_index as f64 * self.step_rad()
+    }
+
+    /// A lattice heading as a unit vector.
+    pub fn unit(&self, heading_index: usize) -> Point2 {
+        self.units[heading_index]
     }
 
     /// The lattice heading nearest to a finite heading.

@@ -38,6 +38,10 @@ impl OpenList {
         });
     }
 
+    pub(super) fn peek(&self) -> Option<Entry> {
+        self.heap.peek().map(|queued| queued.entry)
+    }
+
     pub(super) fn pop(&mut self) -> Option<Entry> {
         self.heap.pop().map(|queued| queued.entry)
     }

@@ -1,46 +1,28 @@
 //! The search tree: how each state was reached.
 
 use crate::geometry::{Arc, Pose2};
+use crate::search::drive::State;
 
-/// A state reached, and the motion that led there.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Node {
-    pub(super) pose: Pose2,
-    /// The motion from the parent; of length 0 at a start.
-    pub(super) arc: Arc,
-    pub(super) heading_index: usize,
-    pub(super) cost: f64,
-    pub(super) parent: Option<u32>,
-}
+/// No parent: a start.
+const NONE: u32 = u32::MAX;
 
-impl Node {
-    /// A start; its heading need not be on the lattice.
-    pub(super) fn root(pose: Pose2) -> Self {
-        Self {
-            pose,
-            arc: Arc::default(),
-            heading_index: 0,
-            cost: 0.0,
-            parent: None,
-        }
-    }
-}
-
-/// All nodes, and the shots that lead from some of them to the goal.
+/// All states reached, and the shots that lead from some of them to the goal.
 #[derive(Default)]
 pub(super) struct Tree {
-    nodes: Vec<Node>,
+    states: Vec<State>,
+    parents: Vec<u32>,
     shots: Vec<Vec<Arc>>,
 }
 
 impl Tree {
-    pub(super) fn add(&mut self, node: Node) -> u32 {
-        self.nodes.push(node);
-        (self.nodes.len() - 1) as u32
+    pub(super) fn add(&mut self, state: State, parent: Option<u32>) -> u32 {
+        self.states.push(state);
+        self.parents.push(parent.unwrap_or(NONE));
+        (self.states.len() - 1) as u32
     }
 
-    pub(super) fn node(&self, id: u32) -> &Node {
-        &self.nodes[id as usize]
+    pub(super) fn state(&self, id: u32) -> &State {
+        &self.states[id as usize]
     }
 
     pub(super) fn add_shot(&mut self, arcs: Vec<Arc>) -> u32 {
@@ -48,16 +30,16 @@ impl Tree {
         (self.shots.len() - 1) as u32
     }
 
-    /// The start and the arcs to a node, and those of a shot from there.
+    /// The start and the arcs to a state, and those of a shot from there.
     pub(super) fn path(&self, id: u32, shot: Option<u32>) -> (Pose2, Vec<Arc>) {
         let mut arcs = Vec::new();
-        let mut node = self.node(id);
-        while let Some(parent) = node.parent {
-            arcs.push(node.arc);
-            node = self.node(parent);
+        let mut id = id;
+        while self.parents[id as usize] != NONE {
+            arcs.push(self.state(id).arc);
+            id = self.parents[id as usize];
         }
         arcs.reverse();
         arcs.extend(shot.iter().flat_map(|&shot| &self.shots[shot as usize]));
-        (node.pose, arcs)
+        (self.state(id).pose, arcs)
     }
 }

@@ -1,0 +1,204 @@
+//! One ant that drives from the start towards the goal.
+
+use super::DriveConfig;
+use crate::geometry::{Arc, Point2, Pose2};
+use crate::numeric::RandomStream;
+use crate::search::{DriveProblem, Guide, State};
+use std::collections::HashSet;
+
+/// Where an ant drove.
+#[derive(Clone, Debug, Default)]
+pub struct Way {
+    /// Where it began.
+    pub start: Pose2,
+    /// What it drove; to the goal pose where it arrived.
+    pub arcs: Vec<Arc>,
+    /// Where it died, if it did.
+    pub died_at: Option<Point2>,
+    /// Decisions that it took.
+    pub n_steps: u64,
+}
+
+/// Ants look for a shot this often near the goal, ever more seldom farther off: once in so many
+/// turning radii to go a step more.
+const RADII_PER_SHOT_STEP: f64 = 3.0;
+/// The most steps between two shots.
+const MAX_SHOT_STEPS: u64 = 32;
+/// A shot may be this many times as long as the way along the field, or
+const SHOT_RATIO: f64 = 1.5;
+/// so many turning radii longer.
+const SHOT_SLACK_RADII: f64 = 6.0;
+
+/// An ant with its memory of one way, used again and again.
+pub(super) struct Ant<'a> {
+    problem: DriveProblem<'a>,
+    config: DriveConfig,
+    /// The states of the way so far.
+    states: Vec<State>,
+    visited: HashSet<u64>,
+    candidates: Vec<Candidate>,
+}
+
+#[derive(Clone, Copy)]
+struct Candidate {
+    step: usize,
+    state: State,
+    /// Estimated cost of a way through it.
+    cost: f64,
+    weight: f64,
+}
+
+impl<'a> Ant<'a> {
+    pub(super) fn new(problem: &DriveProblem<'a>, config: &DriveConfig) -> Self {
+        Self {
+            problem: problem.clone(),
+            config: config.clone(),
+            states: Vec::new(),
+            visited: HashSet::new(),
+            candidates: Vec::new(),
+        }
+    }
+
+    /// Drives once. A patient ant always takes what looks best.
+    pub(super) fn drive(
+        &mut self,
+        guide: &Guide,
+        start: State,
+        draw: &mut RandomStream,
+        is_greedy: bool,
+    ) -> Way {
+        self.states.clear();
+        self.visited.clear();
+        self.states.push(start);
+        let step_m = self.problem.step_m();
+        let to_go_m = guide
+            .estimate_m(&self.problem, start.pose.position())
+            .unwrap_or(0.0);
+        let max_steps = (self.config.detour_ratio * (to_go_m / step_m + 20.0)) as u64;
+        let mut n_retreats = 0;
+        let mut died_at = None;
+        for n_steps in 1..=max_steps {
+            let here = self.states[self.states.len() - 1];
+            if self.wants_shot(guide, here.pose, n_steps)
+                && let Some(shot) = self.shot(guide, &here)
+            {
+                return self.arrived(&shot, n_steps);
+            }
+            self.look_around(guide, &here);
+            if let Some(state) = self.choose(&here, draw, is_greedy) {
+                self.visited.insert(self.problem.key(&state));
+                self.states.push(state);
+                if self.problem.at_goal(state.pose) {
+                    return self.arrived(&[], n_steps);
+                }
+                continue;
+            }
+            died_at.get_or_insert(here.pose.position());
+            n_retreats += 1;
+            if n_retreats > self.config.n_retreats || self.states.len() == 1 {
+                return self.dead(died_at, n_steps);
+            }
+            self.states.pop();
+        }
+        let last = self.states[self.states.len() - 1].pose.position();
+        self.dead(died_at.or(Some(last)), max_steps)
+    }
+
+    fn wants_shot(&self, guide: &Guide, pose: Pose2, n_steps: u64) -> bool {
+        let Some(to_go_m) = guide.estimate_m(&self.problem, pose.position()) else {
+            return false;
+        };
+        let radius_m = self.problem.ground().radius_m();
+        let every = (to_go_m / (RADII_PER_SHOT_STEP * radius_m)) as u64 + 1;
+        n_steps.is_multiple_of(every.min(MAX_SHOT_STEPS))
+    }
+
+    /// A free curve to the goal that is not much longer than the field says.
+    fn shot(&self, guide: &Guide, here: &State) -> Option<Vec<Arc>> {
+        let to_go_m = guide.estimate_m(&self.problem, here.pose.position())?;
+        let (arcs, _) = self.problem.shot(here)?;
+        let length_m: f64 = arcs.iter().map(|arc| arc.length_m()).sum();
+        let slack_m = SHOT_SLACK_RADII * self.problem.ground().radius_m();
+        (length_m <= SHOT_RATIO * to_go_m + slack_m).then_some(arcs)
+    }
+
+    /// Finds out what leads on from a state, and what a way through each of it may cost: its own
+    /// cost and the way along the field from the best place one motion farther on.
+    fn look_around(&mut self, guide: &Guide, here: &State) {
+        let (problem, visited) = (&self.problem, &self.visited);
+        let candidates = &mut self.candidates;
+        candidates.clear();
+        problem.successors(here, |step, state| {
+            if visited.contains(&problem.key(&state)) {
+                return;
+            }
+            if let Some(ahead) = problem.look_ahead(guide, &state) {
+                candidates.push(Candidate {
+                    step,
+                    state,
+                    cost: state.cost - here.cost + ahead,
+                    weight: 0.0,
+                });
+            }
+        });
+        let least = candidates
+            .iter()
+            .fold(f64::INFINITY, |least, c| c.cost.min(least));
+        let scale = self.config.beta / problem.step_m();
+        for candidate in candidates {
+            candidate.weight = (-scale * (candidate.cost - least)).exp();
+        }
+    }
+
+    /// A motion that is free: the best one, or one drawn by weight. Only what is chosen is looked
+    /// at, and struck off where it hits something.
+    fn choose(&mut self, here: &State, draw: &mut RandomStream, is_greedy: bool) -> Option<State> {
+        while !self.candidates.is_empty() {
+            let place = if is_greedy {
+                self.best()
+            } else {
+                self.drawn(draw)
+            };
+            let Candidate { step, state, .. } = self.candidates.remove(place);
+            if self.problem.is_free(here, step, state.arc) {
+                return Some(state);
+            }
+        }
+        None
+    }
+
+    fn best(&self) -> usize {
+        let costs = self.candidates.iter().enumerate();
+        let best = costs.min_by(|a, b| a.1.cost.total_cmp(&b.1.cost));
+        best.map_or(0, |(place, _)| place)
+    }
+
+    fn drawn(&self, draw: &mut RandomStream) -> usize {
+        let total: f64 = self.candidates.iter().map(|c| c.weight).sum();
+        let mut left = draw.unit() * total;
+        for (place, candidate) in self.candidates.iter().enumerate() {
+            left -= candidate.weight;
+            if left < 0.0 {
+                return place;
+            }
+        }
+        self.best()
+    }
+
+    fn arrived(&self, shot: &[Arc], n_steps: u64) -> Way {
+        let driven = self.states[1..].iter().map(|state| state.arc);
+        Way {
+            start: self.states[0].pose,
+            arcs: driven.chain(shot.iter().copied()).collect(),
+            died_at: None,
+            n_steps,
+        }
+    }
+
+    fn dead(&self, died_at: Option<Point2>, n_steps: u64) -> Way {
+        Way {
+            died_at,
+            ..self.arrived(&[], n_steps)
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Parameters of ants that drive.
+
+use crate::numeric::{OutOfRange, check_range};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Parameters of ants that drive.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct DriveConfig {
+    /// Ants of a generation, 0 to 10000; without any, hybrid A* searches alone.
+    #[schemars(range(min = 0, max = 10_000))]
+    pub n_ants: u32,
+    /// How much ants prefer what leads on, 0 to 100: a motion that costs its own length more than
+    /// the best one is taken exp(-beta) times as often.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub beta: f64,
+    /// Steps back that an ant takes where nothing leads on before it dies, 0 to 10000.
+    #[schemars(range(min = 0, max = 10_000))]
+    pub n_retreats: u32,
+    /// An ant dies after so many times the steps that the way along the field takes, 1 to 100.
+    #[schemars(range(min = 1.0, max = 100.0))]
+    pub detour_ratio: f64,
+    /// How the goal field is repaired where ants die.
+    pub repair: FieldRepair,
+}
+
+/// How the goal field is repaired where ants die.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct FieldRepair {
+    /// Radius of the ground that becomes dearer about a place of death, in turning radii, 0 to 10.
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub reach_radii: f64,
+    /// What a cell there costs beyond its step, in steps per death, 0 to 100; 0 repairs nothing.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub toll_per_death: f64,
+}
+
+impl Default for DriveConfig {
+    fn default() -> Self {
+        Self {
+            n_ants: 8,
+            beta: 8.0,
+            n_retreats: 30,
+            detour_ratio: 3.0,
+            repair: FieldRepair::default(),
+        }
+    }
+}
+
+impl Default for FieldRepair {
+    fn default() -> Self {
+        Self {
+            reach_radii: 0.5,
+            toll_per_death: 1.0,
+        }
+    }
+}
+
+impl DriveConfig {
+    /// Checks the ranges.
+    ///
+    /// # Errors
+    /// The first parameter outside its range.
+    pub fn check(&self) -> Result<(), OutOfRange> {
+        check_range("drive.n_ants", f64::from(self.n_ants), 0.0..=10_000.0)?;
+        check_range("drive.beta", self.beta, 0.0..=100.0)?;
+        let n_retreats = f64::from(self.n_retreats);
+        check_range("drive.n_retreats", n_retreats, 0.0..=10_000.0)?;
+        check_range("drive.detour_ratio", self.detour_ratio, 1.0..=100.0)?;
+        let FieldRepair {
+            reach_radii,
+            toll_per_death,
+        } = self.repair;
+        check_range("drive.repair.reach_radii", reach_radii, 0.0..=10.0)?;
+        check_range("drive.repair.toll_per_death", toll_per_death, 0.0..=100.0)
+    }
+}

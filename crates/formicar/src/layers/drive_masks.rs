@@ -1,0 +1,314 @@
+//! What a vehicle's body sweeps on its motion primitives, as masks of bits against the map's.
+
+use crate::geometry::{ConvexPolygon, Point2, Pose2};
+use crate::map::PaddedGrid;
+use crate::vehicle::{Primitive, PrimitiveSet, Vehicle};
+use std::sync::OnceLock;
+
+/// Places inside a cell that are told apart, along each axis.
+const SUB_CELLS: usize = 4;
+/// Turns longer than this are swept in pieces, radians; a piece leaves the convex hull of its ends
+/// by a thousandth of the corner's radius at most.
+const PIECE_RAD: f64 = std::f64::consts::PI / 36.0;
+/// Contact within this counts, in cells.
+const ROUNDING: f64 = 1e-9;
+
+/// Masks of the cells that a body may touch on each motion primitive from each heading of a
+/// lattice, for sixteen places of the rear axle inside its cell.
+///
+/// Where a mask is clear, the motion is free from every position in that sixteenth of a cell; it
+/// may be free though the mask is not clear, by an eighth of a cell each way. Sampling poses along
+/// an arc instead would miss what the swinging front corner sweeps between them. The masks of a
+/// heading are made when they are first asked for. Width and number of rows are not limited.
+#[derive(Clone, Debug)]
+pub struct DriveMasks {
+    lattice: PrimitiveSet,
+    /// Corners of the body around the rear axle, in metres.
+    corners: Vec<Point2>,
+    resolution_m: f64,
+    by_heading: Vec<OnceLock<HeadingMasks>>,
+}
+
+/// The masks of the primitives from one heading, each for all places in a cell.
+#[derive(Clone, Debug, Default)]
+struct HeadingMasks {
+    masks: Vec<Mask>,
+    words: Vec<u64>,
+}
+
+/// Cells around the one that the motion begins in.
+#[derive(Clone, Copy, Debug)]
+struct Mask {
+    low: (i32, i32),
+    words_per_row: u32,
+    first: u32,
+    end: u32,
+}
+
+impl DriveMasks {
+    /// Masks of a vehicle's body on the motions of a lattice, on cells of a size.
+    pub fn new(vehicle: &Vehicle, lattice: PrimitiveSet, resolution_m: f64) -> Self {
+        Self {
+            corners: vehicle.footprint().corners().to_vec(),
+            by_heading: vec![OnceLock::new(); lattice.n_headings()],
+            lattice,
+            resolution_m,
+        }
+    }
+
+    /// The motions and headings.
+    pub fn lattice(&self) -> &PrimitiveSet {
+        &self.lattice
+    }
+
+    /// How far a mask reaches from its cell at most, in cells.
+    pub fn reach_cells(&self) -> usize {
+        let body = self.corners.iter().fold(0.0, |r, p| p.norm().max(r));
+        let primitives = self.lattice.primitives().iter();
+        let step = primitives.fold(0.0, |r, p| p.length_m.max(r));
+        ((body + step) / self.resolution_m).ceil() as usize + 3
+    }
+
+    /// Whether the body stays clear of obstacles on a motion from a position on the map, metres in
+    /// the map's frame, and a heading of the lattice.
+    ///
+    /// `obstacles` must be padded by [`Self::reach_cells`].
+    #[inline]
+    pub fn is_clear(
+        &self,
+        obstacles: &PaddedGrid,
+        position: Point2,
+        heading_index: usize,
+        primitive: usize,
+    ) -> bool {
+        let (x, y) = (
+            position.x / self.resolution_m,
+            position.y / self.resolution_m,
+        );
+        let sub = |v: f64| (((v - v.floor()) * SUB_CELLS as f64) as usize).min(SUB_CELLS - 1);
+        let place = primitive * SUB_CELLS * SUB_CELLS + sub(y) * SUB_CELLS + sub(x);
+        let of_heading = self.of_heading(heading_index);
+        let mask = &of_heading.masks[place];
+        let corner = (
+            x.floor() as i64 + i64::from(mask.low.0),
+            y.floor() as i64 + i64::from(mask.low.1),
+        );
+        let words = &of_heading.words[mask.first as usize..mask.end as usize];
+        obstacles.is_clear(corner, words, mask.words_per_row as usize)
+    }
+
+    fn of_heading(&self, heading_index: usize) -> &HeadingMasks {
+        self.by_heading[heading_index].get_or_init(|| {
+            let mut all = HeadingMasks::default();
+            for primitive in self.lattice.primitives() {
+                let swept = self.swept(primitive, self.lattice.heading_rad(heading_index));
+                for place in 0..SUB_CELLS * SUB_CELLS {
+                    let middle = |i: usize| (i as f64 + 0.5) / SUB_CELLS as f64;
+                    let at = Point2::new(middle(place % SUB_CELLS), middle(place / SUB_CELLS));
+                    all.add(&swept, at);
+                }
+            }
+            all
+        })
+    }
+
+    /// What the body sweeps from the origin, in cells.
+    fn swept(&self, primitive: &Primitive, heading_rad: f64) -> Swept {
+        let start = Pose2::new(0.0, 0.0, heading_rad);
+        let arc = primitive.arc();
+        let turn = (primitive.curvature_per_m * primitive.length_m).abs();
+        let n_pieces = (turn / PIECE_RAD - ROUNDING).ceil().max(1.0);
+        let farthest = if primitive.curvature_per_m == 0.0 {
+            0.0
+        } else {
+            let center = Point2::new(0.0, 1.0 / primitive.curvature_per_m);
+            self.corners
+                .iter()
+                .fold(0.0, |r, p| p.distance(center).max(r))
+        };
+        let scale = 1.0 / self.resolution_m;
+        let corners_after = |piece: f64| {
+            let pose = start.advance(arc.curvature_per_m, arc.signed_length_m * piece / n_pieces);
+            self.corners
+                .iter()
+                .map(move |&p| pose.transform(p) * scale)
+                .collect::<Vec<_>>()
+        };
+        let hull = |piece: usize| {
+            let ends = [piece, piece + 1].map(|i| corners_after(i as f64));
+            ConvexPolygon::hull(&ends.concat()).expect("a moved body has an area")
+        };
+        Swept {
+            hulls: (0..n_pieces as usize).map(hull).collect(),
+            // A corner runs on a circle: between two places it leaves their chord by the sagitta.
+            sagitta: scale * farthest * (1.0 - (0.5 * turn / n_pieces).cos()),
+        }
+    }
+}
+
+/// Convex pieces, and how far the swept region may stand out of them; in cells.
+struct Swept {
+    hulls: Vec<ConvexPolygon>,
+    sagitta: f64,
+}
+
+impl HeadingMasks {
+    /// Adds the mask of what is swept from places around `at` in the cell (0, 0), corner at the
+    /// origin.
+    fn add(&mut self, swept: &Swept, at: Point2) {
+        // What a cell must be away from: its square, grown by the places that `at` stands for.
+        let reach = 0.5 / SUB_CELLS as f64 + swept.sagitta + ROUNDING;
+        let bounds = swept.hulls.iter().map(ConvexPolygon::bounds);
+        let (low, high) = bounds
+            .reduce(|(a, b), (c, d)| {
+                let low = Point2::new(a.x.min(c.x), a.y.min(c.y));
+                (low, Point2::new(b.x.max(d.x), b.y.max(d.y)))
+            })
+            .expect("a sweep has pieces");
+        let first = |v: f64| (v - reach).floor() as i32;
+        let last = |v: f64| (v + reach).floor() as i32;
+        let corner = (first(low.x + at.x), first(low.y + at.y));
+        let n_cols = (last(high.x + at.x) - corner.0 + 1) as usize;
+        let n_rows = (last(high.y + at.y) - corner.1 + 1) as usize;
+        let words_per_row = n_cols.div_ceil(64);
+        let start = self.words.len();
+        self.words.resize(start + words_per_row * n_rows, 0);
+        let shift = at - Point2::new(f64::from(corner.0), f64::from(corner.1));
+        for hull in &swept.hulls {
+            let rows = rows_touched(hull, shift, reach, n_rows);
+            for (words, (low, high)) in self.words[start..].chunks_mut(words_per_row).zip(rows) {
+                if low <= high {
+                    let cols = (low - reach).floor() as usize..=(high + reach).floor() as usize;
+                    set_bits(words, cols);
+                }
+            }
+        }
+        self.masks.push(Mask {
+            low: corner,
+            words_per_row: words_per_row as u32,
+            first: start as u32,
+            end: self.words.len() as u32,
+        });
+    }
+}
+
+/// For each row of cells, grown by `reach`, the columns between which a shifted polygon lies.
+fn rows_touched(
+    polygon: &ConvexPolygon,
+    shift: Point2,
+    reach: f64,
+    n_rows: usize,
+) -> Vec<(f64, f64)> {
+    let mut rows = vec![(f64::INFINITY, f64::NEG_INFINITY); n_rows];
+    for (a, b) in polygon.edges() {
+        let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
+        let (a, b) = (a + shift, b + shift);
+        let slope = if b.y > a.y {
+            (b.x - a.x) / (b.y - a.y)
+        } else {
+            0.0
+        };
+        let first = (a.y - reach).floor().max(0.0) as usize;
+        let last = ((b.y + reach).floor() as usize).min(n_rows - 1);
+        for (i, row) in rows.iter_mut().enumerate().take(last + 1).skip(first) {
+            let band = (i as f64 - reach, i as f64 + 1.0 + reach);
+            let at = |y: f64| a.x + slope * (y - a.y);
+            let (from, to) = (
+                if a.y < band.0 { at(band.0) } else { a.x },
+                if b.y > band.1 { at(band.1) } else { b.x },
+            );
+            *row = (row.0.min(from.min(to)), row.1.max(from.max(to)));
+        }
+    }
+    rows
+}
+
+/// Sets a range of bits in a row of words.
+fn set_bits(words: &mut [u64], cols: std::ops::RangeInclusive<usize>) {
+    let (first, last) = (*cols.start(), *cols.end());
+    for (w, word) in words
+        .iter_mut()
+        .enumerate()
+        .take(last / 64 + 1)
+        .skip(first / 64)
+    {
+        let from = first.saturating_sub(w * 64).min(63);
+        let to = (last - w * 64).min(63);
+        *word |= u64::MAX >> (63 - (to - from)) << from;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::collision::{Body, Drive, ObstacleMap};
+    use crate::map::{Cell, OccupancyGrid};
+    use crate::vehicle::Gears;
+    use proptest::prelude::*;
+
+    fn masks(vehicle: &Vehicle, resolution_m: f64) -> DriveMasks {
+        let step_m = (0.25 * vehicle.min_turning_radius_m()).max(1.5 * resolution_m);
+        let lattice = PrimitiveSet::new(vehicle, 72, step_m, Gears::Both).unwrap();
+        DriveMasks::new(vehicle, lattice, resolution_m)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(400))]
+        #[test]
+        fn a_clear_mask_means_a_free_motion(
+            obstacles in prop::collection::vec((0_u32..90, 0_u32..60), 0..25),
+            place in (0.0..90.0, 0.0..60.0),
+            heading in 0_usize..72,
+            primitive in 0_usize..10,
+            size in 0_usize..3,
+        ) {
+            let resolution_m = [0.1, 0.2, 0.7][size];
+            let mut map = OccupancyGrid::from_rows(&[&".".repeat(90)[..]; 60], resolution_m).unwrap();
+            for (col, row) in obstacles {
+                map.set(Cell::new(col, row), crate::map::OCCUPIED);
+            }
+            let map = ObstacleMap::new(&map);
+            let vehicle = Vehicle::lei2020();
+            let masks = masks(&vehicle, resolution_m);
+            let padded = PaddedGrid::new(map.lethal(), masks.reach_cells());
+            let position = Point2::new(place.0, place.1) * resolution_m;
+            let arc = masks.lattice().primitives()[primitive].arc();
+            let drive = Drive {
+                start: Pose2::at(position, masks.lattice().heading_rad(heading)),
+                curvature_per_m: arc.curvature_per_m,
+                signed_length_m: arc.signed_length_m,
+            };
+            let is_clear = masks.is_clear(&padded, position, heading, primitive);
+            prop_assert!(!is_clear || map.is_free(&Body::new(&vehicle), &drive));
+            // An eighth of a cell along each axis, and what the hulls of 5 degrees stand out by.
+            let margin_m = 0.25 * std::f64::consts::SQRT_2 * resolution_m + 0.01;
+            let wider = Body::new(&vehicle.with_safety_margin(margin_m).unwrap());
+            prop_assert!(is_clear || !map.is_free(&wider, &drive));
+        }
+    }
+
+    #[test]
+    fn masks_wider_than_a_word_are_read_across_words() {
+        let vehicle = Vehicle::sedan();
+        let masks = masks(&vehicle, 0.05);
+        let clear = crate::map::BitGrid::new(400, 300);
+        let middle = Point2::new(10.0, 7.5);
+        let is_clear = |cells: &crate::map::BitGrid| {
+            masks.is_clear(&PaddedGrid::new(cells, masks.reach_cells()), middle, 0, 0)
+        };
+        assert!(is_clear(&clear));
+        // From the rear bumper to the front one after a step of a quarter radius.
+        let step_m = masks.lattice().primitives()[0].length_m;
+        let (rear, front) = (10.0 - 1.0, 10.0 + 2.8 + 0.9 + step_m);
+        for (x, expected) in [
+            (rear - 0.1, true),
+            (rear + 0.1, false),
+            (front - 0.1, false),
+            (front + 0.1, true),
+        ] {
+            let mut cells = clear.clone();
+            cells.insert(Cell::new((x / 0.05) as u32, 150));
+            assert_eq!(is_clear(&cells), expected, "{x}");
+        }
+    }
+}

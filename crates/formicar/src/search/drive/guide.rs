@@ -1,0 +1,211 @@
+//! What is still to be driven, estimated from two sides; the larger counts.
+
+use super::{DriveProblem, Inflation};
+use crate::geometry::{Point2, Pose2, dubins, reeds_shepp};
+use crate::map::Cell;
+use crate::progress::{Limits, Status};
+use crate::scenario::MotionMode;
+use crate::search::{GuideField, STRAIGHT_COST, SearchError};
+
+/// The goal field, which sees obstacles but no headings, and the shortest curve, which sees
+/// headings but no obstacles.
+pub struct Guide<'a> {
+    field: GuideField<'a>,
+    /// Cells of the map that a cell of the field is wide.
+    stride: u32,
+    /// Size of a cell of the field.
+    resolution_m: f64,
+}
+
+/// Eight directions are up to 8.2 % longer than the straight way: cos(pi / 8).
+const OCTILE_SHRINK: f64 = 0.923_879_532_511_286_7;
+/// Up to how many goal poses curves are measured to; beyond, the goal field alone guides.
+const MAX_CURVE_GOALS: usize = 2;
+/// Curves count within this many turning radii of the goal; farther off the field says more.
+const CURVE_REACH_RADII: f64 = 12.0;
+
+impl<'a> Guide<'a> {
+    /// The guide on obstacles grown by a radius; none where that covers an end.
+    ///
+    /// # Errors
+    /// Deadline or cancel.
+    pub fn new(
+        problem: &DriveProblem<'a>,
+        inflation: Inflation,
+        limits: &mut Limits,
+    ) -> Result<Option<Self>, Status> {
+        let (moves, stride) = problem.ground().moves(inflation);
+        let free = |cell: &Cell| !moves.blocked().get(cell.col as usize, cell.row as usize);
+        let cells = |poses: &[Pose2]| {
+            let cells = poses
+                .iter()
+                .filter_map(|pose| problem.cell(pose.position()));
+            let cells = cells.map(|cell| Cell::new(cell.col / stride, cell.row / stride));
+            let mut cells: Vec<Cell> = cells.filter(free).collect();
+            cells.dedup();
+            cells
+        };
+        let (starts, goals) = (cells(problem.starts()), cells(problem.goals()));
+        let (Some(&start), false) = (starts.first(), goals.is_empty()) else {
+            return Ok(None);
+        };
+        let Ok(field) = GuideField::new(moves, &goals) else {
+            return Ok(None);
+        };
+        let map_m = problem.ground().obstacles().frame().resolution_m();
+        let mut guide = Self {
+            field,
+            stride,
+            resolution_m: f64::from(stride) * map_m,
+        };
+        let reaches = guide.measure(start, limits)?.is_some();
+        Ok(reaches.then_some(guide))
+    }
+
+    /// Estimated cost from a pose to the goal; none where the goal cannot be reached.
+    ///
+    /// # Errors
+    /// Deadline or cancel.
+    pub fn cost_to_go(
+        &mut self,
+        problem: &DriveProblem,
+        pose: Pose2,
+        limits: &mut Limits,
+    ) -> Result<Option<f64>, Status> {
+        let Some(along_field) = self.along_field_m(problem, pose, limits)? else {
+            return Ok(None);
+        };
+        Ok(Some(along_field.max(self.along_curve_m(
+            problem,
+            pose,
+            along_field,
+        ))))
+    }
+
+    /// Length of the shortest curve to a goal; 0 where the way along the field is too long for it
+    /// to matter.
+    pub fn along_curve_m(&self, problem: &DriveProblem, pose: Pose2, along_field_m: f64) -> f64 {
+        let goals = problem.goals();
+        let radius_m = problem.ground().radius_m();
+        if goals.len() > MAX_CURVE_GOALS || along_field_m > CURVE_REACH_RADII * radius_m {
+            return 0.0;
+        }
+        let curve = |&goal: &Pose2| match problem.motion() {
+            MotionMode::Forward => dubins::distance(pose, goal, radius_m),
+            MotionMode::Reverse => reeds_shepp::distance(pose, goal, radius_m),
+        };
+        let shortest = goals.iter().filter_map(curve).fold(f64::INFINITY, f64::min);
+        if shortest.is_finite() { shortest } else { 0.0 }
+    }
+
+    /// The way along the goal field, interpolated between the centers of the four cells around,
+    /// since a field of steps would reward weaving from one cell's edge to the next.
+    ///
+    /// # Errors
+    /// Deadline or cancel.
+    pub fn along_field_m(
+        &mut self,
+        problem: &DriveProblem,
+        pose: Pose2,
+        limits: &mut Limits,
+    ) -> Result<Option<f64>, Status> {
+        let Some(cell) = self.cell(problem, pose.position()) else {
+            return Ok(None);
+        };
+        let Some(here) = self.measure(cell, limits)? else {
+            return Ok(None);
+        };
+        Ok(Some(self.interpolated_m(pose.position(), here)))
+    }
+
+    /// The same without measuring: none where the field is not settled.
+    pub fn settled_m(&self, problem: &DriveProblem, pose: Pose2) -> Option<f64> {
+        let here = self.field.cost(self.cell(problem, pose.position())?)?;
+        Some(self.interpolated_m(pose.position(), here))
+    }
+
+    /// The way along the field where it is settled, beyond that at least as much; none where no
+    /// goal is reached.
+    pub fn estimate_m(&self, problem: &DriveProblem, position: Point2) -> Option<f64> {
+        let cell = self.cell(problem, position)?;
+        match self.field.cost(cell) {
+            Some(here) => Some(self.interpolated_m(position, here)),
+            None => self
+                .field
+                .horizon()
+                .map(|cost| self.length_m(f64::from(cost))),
+        }
+    }
+
+    /// Makes cells dearer: `tolls` is told the size of a cell and the numbers of columns and rows.
+    ///
+    /// # Errors
+    /// Deadline or cancel.
+    pub fn repair(
+        &mut self,
+        tolls: impl FnOnce(f64, (usize, usize)) -> Vec<(Cell, u32)>,
+        limits: &mut Limits,
+    ) -> Result<(), Status> {
+        let moves = self.field.moves();
+        let tolls = tolls(self.resolution_m, (moves.n_cols(), moves.n_rows()));
+        match self.field.add_tolls(&tolls, &mut limits.without_budget()) {
+            Err(SearchError::Ended { status }) => Err(status),
+            _ => Ok(()),
+        }
+    }
+
+    /// Settles the field beyond the start, so that ants may stray.
+    ///
+    /// # Errors
+    /// Deadline or cancel.
+    pub fn settle_around(&mut self, to_go_m: f64, limits: &mut Limits) -> Result<(), Status> {
+        let cells = to_go_m / (OCTILE_SHRINK * self.resolution_m);
+        let cost = (cells * f64::from(STRAIGHT_COST)).min(f64::from(u32::MAX / 4)) as u32;
+        match self.field.settle(cost, &mut limits.without_budget()) {
+            Err(SearchError::Ended { status }) => Err(status),
+            _ => Ok(()),
+        }
+    }
+
+    fn measure(&mut self, cell: Cell, limits: &mut Limits) -> Result<Option<u32>, Status> {
+        if let Some(cost) = self.field.cost(cell) {
+            return Ok(Some(cost));
+        }
+        match self.field.measure(cell, &mut limits.without_budget()) {
+            Ok(cost) => Ok(cost),
+            Err(SearchError::Ended { status }) => Err(status),
+            Err(_) => Ok(None),
+        }
+    }
+
+    /// Between the four cell centers around a pose; `here` stands in for what is not settled.
+    fn interpolated_m(&self, position: Point2, here: u32) -> f64 {
+        let (x, y) = (
+            position.x / self.resolution_m - 0.5,
+            position.y / self.resolution_m - 0.5,
+        );
+        let moves = self.field.moves();
+        let at = |dx: f64, dy: f64| {
+            let (col, row) = (x.floor() + dx, y.floor() + dy);
+            let inside = (0.0..moves.n_cols() as f64).contains(&col)
+                && (0.0..moves.n_rows() as f64).contains(&row);
+            let cell = inside.then(|| Cell::new(col as u32, row as u32));
+            f64::from(cell.and_then(|cell| self.field.cost(cell)).unwrap_or(here))
+        };
+        let (u, v) = (x - x.floor(), y - y.floor());
+        let below = (1.0 - u) * at(0.0, 0.0) + u * at(1.0, 0.0);
+        let above = (1.0 - u) * at(0.0, 1.0) + u * at(1.0, 1.0);
+        self.length_m((1.0 - v) * below + v * above)
+    }
+
+    fn length_m(&self, cost: f64) -> f64 {
+        OCTILE_SHRINK * self.resolution_m / f64::from(STRAIGHT_COST) * cost
+    }
+
+    /// The field's cell under a pose.
+    fn cell(&self, problem: &DriveProblem, position: Point2) -> Option<Cell> {
+        problem
+            .cell(position)
+            .map(|cell| Cell::new(cell.col / self.stride, cell.row / self.stride))
+    }
+}

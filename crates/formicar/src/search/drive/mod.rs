@@ -1,0 +1,13 @@
+//! What planners that drive from pose to pose share: a map prepared for a vehicle's motions, the
+//! moves and costs of a query, and the guide to its goal.
+
+mod config;
+mod ground;
+mod guide;
+mod problem;
+mod shots;
+
+pub use config::HybridAstarConfig;
+pub use ground::DriveGround;
+pub use guide::Guide;
+pub use problem::{DriveProblem, Inflation, Side, State};

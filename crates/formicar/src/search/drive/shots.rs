@@ -1,0 +1,60 @@
+//! Curves straight to the goal: the analytic expansion.
+
+use super::{DriveProblem, State};
+use crate::geometry::{Arc, Curve, Pose2, dubins, reeds_shepp};
+use crate::scenario::MotionMode;
+
+/// How many words are tried per goal pose, shortest first.
+const MAX_WORDS: usize = 6;
+
+impl DriveProblem<'_> {
+    /// The cheapest free curve from a state to a goal pose among the shortest words, with its
+    /// cost.
+    pub fn shot(&self, state: &State) -> Option<(Vec<Arc>, f64)> {
+        let mut curves: Vec<Curve> = self
+            .goals()
+            .iter()
+            .flat_map(|&goal| self.words(state.pose, goal))
+            .collect();
+        curves.sort_by(|a, b| a.length_m().total_cmp(&b.length_m()));
+        curves.truncate(MAX_WORDS);
+        let mut priced: Vec<(f64, Curve)> = curves
+            .into_iter()
+            .filter_map(|curve| Some((self.price(state, &curve)?, curve)))
+            .collect();
+        priced.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let is_free = |curve: &Curve| {
+            let mut arcs = curve.placed_arcs(state.pose);
+            arcs.all(|(start, arc)| self.is_arc_free(start, arc))
+        };
+        let (cost, curve) = priced.into_iter().find(|(_, curve)| is_free(curve))?;
+        Some((curve.arcs().to_vec(), cost))
+    }
+
+    fn words(&self, from: Pose2, to: Pose2) -> Vec<Curve> {
+        let radius_m = self.ground().radius_m();
+        match self.motion() {
+            MotionMode::Forward => dubins::candidates(from, to, radius_m),
+            MotionMode::Reverse => reeds_shepp::candidates(from, to, radius_m),
+        }
+    }
+
+    /// The cost of a curve driven after a state, in pieces as long as motion primitives; none
+    /// where one of their ends certainly hits something.
+    fn price(&self, state: &State, curve: &Curve) -> Option<f64> {
+        let mut before = state.arc;
+        let mut total = 0.0;
+        for (start, arc) in curve.placed_arcs(state.pose) {
+            let n_pieces = (arc.length_m() / self.piece_m()).ceil().max(1.0) as usize;
+            let piece = Arc::new(arc.curvature_per_m, arc.signed_length_m / n_pieces as f64);
+            for (position, along) in arc.waypoints(start, n_pieces) {
+                if self.hits(position, along) {
+                    return None;
+                }
+                total += self.cost(before, piece, self.nearness(position, along));
+                before = arc;
+            }
+        }
+        Some(total)
+    }
+}
