@@ -10,6 +10,7 @@ mod arc;
 mod body;
 mod contact;
 mod convex;
+mod estimate;
 mod nearest;
 mod obstacle_map;
 mod overlap;

@@ -9,6 +9,7 @@ mod chain;
 mod config;
 mod error;
 mod explain;
+mod improve;
 mod open_list;
 mod polyline;
 mod redundant_nodes;
@@ -21,6 +22,7 @@ mod wide_arcs;
 
 pub use config::{Corners, SmoothingConfig};
 pub use error::{CornerProblem, SmoothingError};
+pub use improve::{ImproveConfig, ImproveProblem, Improved, Improver};
 pub use redundant_nodes::{RedundantNodes, remove_redundant_nodes};
 pub use smooth::{CornerRecord, Ground, Rounding, Smoothed, smooth};
 pub use two_turning::{TurnOrder, TwoTurning};

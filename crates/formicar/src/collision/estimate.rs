@@ -1,0 +1,120 @@
+//! A cheap estimate of a standing body's clearance, continuous in its pose, for preferences.
+
+use super::{Body, ObstacleMap};
+use crate::geometry::{Point2, Pose2};
+use std::f64::consts::SQRT_2;
+
+impl ObstacleMap {
+    /// From the center of a cell to its sides: the nearest square begins half a cell before its
+    /// center.
+    const CENTER_TO_SIDE_CELLS: f64 = 0.5;
+
+    /// An estimate of a standing body's clearance, metres, that the covering discs and the
+    /// distance transform, interpolated between cell centers, give; negative where a disc overlaps
+    /// something.
+    ///
+    /// Above `enough_m`, any value above it may be returned: what stands far from everything needs
+    /// one look. The estimate changes by at most the square root of 2 times what a point of the
+    /// body moves. It is within a cell of the truth, less what the discs stand out of the body.
+    pub fn clearance_estimate_m(&self, body: &Body, pose: Pose2, enough_m: f64) -> f64 {
+        let along = Point2::unit(pose.heading);
+        self.estimate_at(body, pose.position(), along, enough_m)
+    }
+
+    /// The same for a body whose heading is given as a unit vector.
+    pub(crate) fn estimate_at(
+        &self,
+        body: &Body,
+        position: Point2,
+        along: Point2,
+        enough_m: f64,
+    ) -> f64 {
+        let place = |local: Point2| {
+            Point2::new(
+                position.x + along.x * local.x - along.y * local.y,
+                position.y + along.y * local.x + along.x * local.y,
+            )
+        };
+        let reach_m = body.half.x.max(body.half.y);
+        let around_m = self.room_about_m(place(body.middle)) - SQRT_2 * reach_m - body.disc_radius;
+        if around_m > enough_m {
+            return around_m;
+        }
+        let rooms = body
+            .discs
+            .iter()
+            .map(|&disc| self.room_about_m(place(disc)));
+        rooms.fold(f64::INFINITY, f64::min) - body.disc_radius
+    }
+
+    /// Estimated distance from a point to the nearest lethal square or the border, metres.
+    fn room_about_m(&self, p: Point2) -> f64 {
+        let frame = self.frame();
+        let resolution_m = frame.resolution_m();
+        let extent = frame.extent_m();
+        let border_m = p.x.min(p.y).min(extent.x - p.x).min(extent.y - p.y);
+        if border_m <= 0.0 {
+            return border_m;
+        }
+        let scale = 1.0 / resolution_m;
+        let (x, y) = (p.x * scale - 0.5, p.y * scale - 0.5);
+        let (col, row) = (x.max(0.0) as usize, y.max(0.0) as usize);
+        let (last_col, last_row) = (frame.n_cols() - 1, frame.n_rows() - 1);
+        let (col, row) = (col.min(last_col), row.min(last_row));
+        let (u, v) = (x - col as f64, y - row as f64);
+        let (u, v) = (u.clamp(0.0, 1.0), v.clamp(0.0, 1.0));
+        let (next_col, above) = ((col + 1).min(last_col), (row + 1).min(last_row));
+        let field = self.distance();
+        let at = |row: &[u16], col: usize| f64::from(row[col]).sqrt();
+        let (low, high) = (field.row(row), field.row(above));
+        let below = (1.0 - u) * at(low, col) + u * at(low, next_col);
+        let over = (1.0 - u) * at(high, col) + u * at(high, next_col);
+        let cells = (1.0 - v) * below + v * over - Self::CENTER_TO_SIDE_CELLS;
+        (cells * resolution_m).min(border_m)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::map::generate::{ScatterParameters, scattered_obstacles};
+    use crate::numeric::Seed;
+    use crate::vehicle::Vehicle;
+
+    #[test]
+    fn is_near_the_truth() {
+        let sparse = ScatterParameters {
+            density: 0.01,
+            ..ScatterParameters::default()
+        };
+        let map = scattered_obstacles(&sparse, Seed(4)).unwrap();
+        let map = ObstacleMap::new(&map);
+        let body = Body::new(&Vehicle::lei2020());
+        let resolution_m = map.frame().resolution_m();
+        let extent = map.frame().extent_m();
+        let mut stream = Seed(5).stream([0, 0]);
+        let mut n_near = 0;
+        for _ in 0..2_000 {
+            let (x, y) = (stream.range(0.0, extent.x), stream.range(0.0, extent.y));
+            let pose = Pose2::new(x, y, stream.range(-3.0, 3.0));
+            let exact_m = map.clearance_m(&body, pose);
+            let estimate_m = map.clearance_estimate_m(&body, pose, 1.0);
+            if exact_m < 1.0 && estimate_m < 1.0 {
+                n_near += usize::from(exact_m > 0.0);
+                let stands_out_m = body.discs_stand_out_m();
+                assert!(estimate_m <= exact_m + 0.5 * resolution_m, "{pose:?}");
+                let low_m = exact_m - resolution_m - SQRT_2 * stands_out_m;
+                assert!(
+                    exact_m == 0.0 || estimate_m >= low_m,
+                    "{pose:?} {exact_m} {estimate_m}"
+                );
+            } else {
+                assert!(
+                    exact_m.min(estimate_m) > 1.0 - 2.0 * resolution_m,
+                    "{pose:?}"
+                );
+            }
+        }
+        assert!(n_near > 20, "{n_near}");
+    }
+}
