@@ -36,19 +36,20 @@ impl ObstacleMap {
             )
         };
         let reach_m = body.half.x.max(body.half.y);
-        let around_m = self.room_about_m(place(body.middle)) - SQRT_2 * reach_m - body.disc_radius;
-        if around_m > enough_m {
-            return around_m;
+        let around_m = SQRT_2 * reach_m + body.disc_radius;
+        let middle_m = self.room_about_m(place(body.middle), around_m + enough_m) - around_m;
+        if middle_m > enough_m {
+            return middle_m;
         }
-        let rooms = body
-            .discs
-            .iter()
-            .map(|&disc| self.room_about_m(place(disc)));
+        let far_m = body.disc_radius + enough_m;
+        let rooms = body.discs.iter();
+        let rooms = rooms.map(|&disc| self.room_about_m(place(disc), far_m));
         rooms.fold(f64::INFINITY, f64::min) - body.disc_radius
     }
 
-    /// Estimated distance from a point to the nearest lethal square or the border, metres.
-    fn room_about_m(&self, p: Point2) -> f64 {
+    /// Estimated distance from a point to the nearest lethal square or the border, metres, or a
+    /// lower bound of the estimate that is above `far_m`.
+    fn room_about_m(&self, p: Point2, far_m: f64) -> f64 {
         let frame = self.frame();
         let resolution_m = frame.resolution_m();
         let extent = frame.extent_m();
@@ -57,14 +58,19 @@ impl ObstacleMap {
             return border_m;
         }
         let scale = 1.0 / resolution_m;
-        let (x, y) = (p.x * scale - 0.5, p.y * scale - 0.5);
-        let (col, row) = (x.max(0.0) as usize, y.max(0.0) as usize);
+        let (x, y) = (p.x * scale, p.y * scale);
         let (last_col, last_row) = (frame.n_cols() - 1, frame.n_rows() - 1);
-        let (col, row) = (col.min(last_col), row.min(last_row));
-        let (u, v) = (x - col as f64, y - row as f64);
-        let (u, v) = (u.clamp(0.0, 1.0), v.clamp(0.0, 1.0));
-        let (next_col, above) = ((col + 1).min(last_col), (row + 1).min(last_row));
         let field = self.distance();
+        let here = field.squared((x as usize).min(last_col), (y as usize).min(last_row));
+        // Centers that surround the point are within a diagonal of that of its own cell.
+        let floor = f64::from(here).sqrt() - SQRT_2 - Self::CENTER_TO_SIDE_CELLS;
+        if floor * resolution_m > far_m {
+            return (floor * resolution_m).min(border_m);
+        }
+        let (x, y) = ((x - 0.5).max(0.0), (y - 0.5).max(0.0));
+        let (col, row) = (x as usize, y as usize);
+        let (u, v) = (x - col as f64, y - row as f64);
+        let (next_col, above) = ((col + 1).min(last_col), (row + 1).min(last_row));
         let at = |row: &[u16], col: usize| f64::from(row[col]).sqrt();
         let (low, high) = (field.row(row), field.row(above));
         let below = (1.0 - u) * at(low, col) + u * at(low, next_col);

@@ -11,6 +11,7 @@ mod body;
 mod contact;
 mod convex;
 mod estimate;
+mod march;
 mod nearest;
 mod obstacle_map;
 mod overlap;

@@ -9,31 +9,52 @@ use super::{Arc, Curve, Point2, Pose2, angle_difference};
 /// Headings that differ by less have no corner between them, radians.
 const LEAST_CORNER_RAD: f64 = 1e-6;
 
-/// Arc, line, arc: along a common tangent of two circles, whose signed radii in metres are positive
-/// to the left. None where the circles have no such tangent, or on bad numbers.
+/// Arc, line, arc between two poses: along a common tangent of a circle at each.
 ///
-/// With the radius `r1` the first circle's center is `c1 = p1 + r1 n(h1)`. A tangent with heading h
-/// leads from `c1 - r1 n(h)` to `c2 - r2 n(h)`, so that `c2 - c1 = length u(h) + (r2 - r1) n(h)`,
-/// whatever the sides.
-pub fn along_tangent(from: Pose2, to: Pose2, [r1, r2]: [f64; 2]) -> Option<Curve> {
-    let local = from.relative(to);
-    let turn_rad = angle_difference(to.heading, from.heading);
-    let first = Point2::new(0.0, r1);
-    let last = local.position() + Point2::unit(turn_rad).perpendicular() * r2;
-    let (between, apart) = (last - first, r2 - r1);
-    let length2 = between.dot(between) - apart * apart;
-    if !(length2 >= 0.0 && length2.is_finite() && r1 != 0.0 && r2 != 0.0) {
-        return None;
+/// With a signed radius `r1`, positive to the left, the first circle's center is
+/// `c1 = p1 + r1 n(h1)`. A tangent with heading h leads from `c1 - r1 n(h)` to `c2 - r2 n(h)`, so
+/// that `c2 - c1 = length u(h) + (r2 - r1) n(h)`, whatever the sides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tangents {
+    /// The second pose's position in the frame of the first, and its left normal there.
+    local: Point2,
+    normal: Point2,
+    turn_rad: f64,
+}
+
+impl Tangents {
+    /// Looks at two poses.
+    pub fn between(from: Pose2, to: Pose2) -> Self {
+        let turn_rad = angle_difference(to.heading, from.heading);
+        Self {
+            local: from.relative(to).position(),
+            normal: Point2::unit(turn_rad).perpendicular(),
+            turn_rad,
+        }
     }
-    let length_m = length2.sqrt();
-    let heading_rad = between.angle() - apart.atan2(length_m);
-    let begin_rad = to_full_turn(r1.signum() * heading_rad);
-    let end_rad = to_full_turn(r2.signum() * (turn_rad - heading_rad));
-    Some(Curve::of_arcs([
-        Arc::new(1.0 / r1, r1.abs() * begin_rad),
-        Arc::new(0.0, length_m),
-        Arc::new(1.0 / r2, r2.abs() * end_rad),
-    ]))
+
+    /// The curve with two signed radii in metres. None where the circles have no such tangent, or
+    /// on bad numbers.
+    pub fn curve(&self, [r1, r2]: [f64; 2]) -> Option<Curve> {
+        let between = self.local + self.normal * r2 - Point2::new(0.0, r1);
+        let apart = r2 - r1;
+        let length2 = between.dot(between) - apart * apart;
+        if !(length2 >= 0.0 && length2.is_finite() && r1 != 0.0 && r2 != 0.0) {
+            return None;
+        }
+        let length_m = length2.sqrt();
+        // The angle of (length, apart) turned into that of `between`, with one arc tangent.
+        let along = length_m * between.x + apart * between.y;
+        let across = length_m * between.y - apart * between.x;
+        let heading_rad = across.atan2(along);
+        let begin_rad = to_full_turn(r1.signum() * heading_rad);
+        let end_rad = to_full_turn(r2.signum() * (self.turn_rad - heading_rad));
+        Some(Curve::of_arcs([
+            Arc::new(1.0 / r1, r1.abs() * begin_rad),
+            Arc::new(0.0, length_m),
+            Arc::new(1.0 / r2, r2.abs() * end_rad),
+        ]))
+    }
 }
 
 /// Line, arc, line: the corner where the poses' lines meet ahead of the first and behind the
@@ -107,7 +128,7 @@ mod tests {
             sides in prop::array::uniform2(prop_oneof![Just(-1.0), Just(1.0)]),
         ) {
             let signed = [radii[0] * sides[0], radii[1] * sides[1]];
-            if let Some(curve) = along_tangent(from, to, signed) {
+            if let Some(curve) = Tangents::between(from, to).curve(signed) {
                 prop_assert!(meets(&curve, from, to), "{curve:?}");
             }
         }
@@ -116,7 +137,7 @@ mod tests {
         fn with_one_radius_they_are_words_of_dubins(from in pose(), to in pose()) {
             let words = dubins::candidates(from, to, 2.0);
             for signed in [[2.0, 2.0], [2.0, -2.0], [-2.0, 2.0], [-2.0, -2.0]] {
-                if let Some(curve) = along_tangent(from, to, signed) {
+                if let Some(curve) = Tangents::between(from, to).curve(signed) {
                     let length_m = curve.length_m();
                     prop_assert!(words.iter().any(|w| (w.length_m() - length_m).abs() < 1e-9));
                 }
@@ -140,10 +161,10 @@ mod tests {
     #[test]
     fn what_has_no_tangent_or_corner_gives_nothing() {
         let (from, near) = (Pose2::default(), Pose2::new(1.0, 0.0, 0.0));
-        assert_eq!(along_tangent(from, near, [2.0, -2.0]), None);
-        assert_eq!(along_tangent(from, near, [0.0, 1.0]), None);
+        assert_eq!(Tangents::between(from, near).curve([2.0, -2.0]), None);
+        assert_eq!(Tangents::between(from, near).curve([0.0, 1.0]), None);
         assert_eq!(
-            along_tangent(from, Pose2::new(f64::NAN, 0.0, 0.0), [1.0, 1.0]),
+            Tangents::between(from, Pose2::new(f64::NAN, 0.0, 0.0)).curve([1.0, 1.0]),
             None
         );
         assert_eq!(Corner::between(from, near), None);

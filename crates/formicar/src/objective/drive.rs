@@ -42,11 +42,11 @@ pub struct DriveCost {
 impl Default for DriveCost {
     fn default() -> Self {
         Self {
-            reverse_factor: 2.0,
-            gear_switch_m: 1.0,
+            reverse_factor: 3.0,
+            gear_switch_m: 10.0,
             curvature_change_weight: 0.05,
             bend_weight: 0.05,
-            clearance_weight: 1.0,
+            clearance_weight: 3.0,
             clearance_wish_m: 0.4,
         }
     }
@@ -100,12 +100,12 @@ impl DriveCost {
         self.curvature_change_weight * radius_m * (radius_m * jump)
     }
 
-    /// n(c): what a metre costs more at a clearance.
+    /// n(c): what a metre costs more at a clearance; estimates below 0 cost ever more.
     pub fn nearness(&self, clearance_m: f64) -> f64 {
-        if clearance_m >= self.clearance_wish_m {
+        if clearance_m >= self.clearance_wish_m || self.clearance_wish_m == 0.0 {
             return 0.0;
         }
-        let lack = 1.0 - clearance_m.max(0.0) / self.clearance_wish_m;
+        let lack = 1.0 - clearance_m / self.clearance_wish_m;
         self.clearance_weight * lack * lack
     }
 
@@ -146,7 +146,8 @@ mod tests {
         };
         assert_eq!(cost.nearness(0.4), 0.0);
         assert!((cost.nearness(0.2) - 0.5).abs() < 1e-12);
-        assert_eq!(cost.nearness(-1.0), 2.0);
+        assert_eq!(cost.nearness(0.0), 2.0);
+        assert!(cost.nearness(-0.1) > 3.0);
         assert_eq!(DriveCost::length_alone().nearness(0.0), 0.0);
         assert!(!DriveCost::length_alone().sees_obstacles());
     }

@@ -41,7 +41,7 @@ impl Default for ImproveConfig {
     fn default() -> Self {
         Self {
             max_tries: 1_000_000,
-            stall_tries_per_radius: 30,
+            stall_tries_per_radius: 10,
             stall_gain: 1e-3,
             shortcut_share: 1.0,
             shift_share: 1.0,

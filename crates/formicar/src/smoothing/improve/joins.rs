@@ -1,7 +1,7 @@
 //! Curves that may join two poses: many cheap ones, of which few are looked at closely.
 
 use super::task::Task;
-use crate::geometry::joins::{Corner, along_tangent};
+use crate::geometry::joins::{Corner, Tangents};
 use crate::geometry::{Curve, Pose2, dubins, reeds_shepp};
 use crate::numeric::RandomStream;
 use crate::scenario::MotionMode;
@@ -86,12 +86,13 @@ impl Gap {
         };
         let [first, last] = self.curvatures_per_m;
         let (firsts, lasts) = (radii(first), radii(last));
+        let tangents = Tangents::between(self.from, self.to);
         for r1 in firsts {
             for r2 in lasts {
-                let tangents = SIDES.iter().filter_map(|[side1, side2]| {
-                    along_tangent(self.from, self.to, [side1 * r1, side2 * r2])
-                });
-                curves.extend(tangents);
+                let curves_of_sides = SIDES
+                    .iter()
+                    .filter_map(|[side1, side2]| tangents.curve([side1 * r1, side2 * r2]));
+                curves.extend(curves_of_sides);
             }
         }
     }

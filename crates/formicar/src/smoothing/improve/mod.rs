@@ -18,7 +18,7 @@ pub use config::ImproveConfig;
 
 use crate::collision::{Body, ObstacleMap};
 use crate::geometry::{Arc, Pose2, angle_difference};
-use crate::numeric::Seed;
+use crate::numeric::{RandomStream, Seed};
 use crate::objective::{DriveCost, DriveMeter, SoftCost};
 use crate::progress::{Limits, Status};
 use crate::scenario::MotionMode;
@@ -235,7 +235,7 @@ impl Run<'_, '_, '_> {
     }
 
     /// Counts a try and gives it its random numbers.
-    fn begin(&mut self) -> Result<crate::numeric::RandomStream, Status> {
+    fn begin(&mut self) -> Result<RandomStream, Status> {
         self.limits.step()?;
         if self.n_tries.is_multiple_of(TRIES_PER_ROUND) {
             self.tell();
@@ -244,7 +244,7 @@ impl Run<'_, '_, '_> {
         Ok(self.seed.stream([self.n_tries, 0]))
     }
 
-    fn attempt(&mut self, stream: crate::numeric::RandomStream) -> Attempt<'_> {
+    fn attempt(&mut self, stream: RandomStream) -> Attempt<'_> {
         Attempt {
             task: self.task,
             chain: &mut self.chain,

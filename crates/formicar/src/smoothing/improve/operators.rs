@@ -226,16 +226,19 @@ impl Attempt<'_> {
 
     /// Replaces a stretch by the first of the cheapest routes that holds what it promises.
     fn take_best(&mut self, mut window: Window, mut routes: Vec<Route>) -> bool {
-        if routes.is_empty() {
-            return false;
-        }
         routes.sort_by(|a, b| a.bound_m.total_cmp(&b.bound_m));
-        window.settle(self.task);
-        let n_checked = self.task.config.n_checked as usize;
-        let mut routes = routes.iter().take(n_checked);
-        routes.any(|route| {
-            window.bounded(self.task, *route).is_some()
-                && window.replace(self.task, self.chain, route)
-        })
+        let task = self.task;
+        let n_checked = task.config.n_checked as usize;
+        let routes = routes.iter().filter(|route| !route.certainly_hits(task));
+        for route in routes.take(n_checked) {
+            window.settle(task);
+            if window.bounded(task, *route).is_none() {
+                continue;
+            }
+            if window.replace(task, self.chain, route) {
+                return true;
+            }
+        }
+        false
     }
 }

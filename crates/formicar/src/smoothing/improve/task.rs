@@ -25,14 +25,17 @@ impl Task<'_> {
             curvature_per_m: arc.curvature_per_m,
             signed_length_m: arc.signed_length_m,
         };
-        self.obstacles.is_free(self.body, &drive)
+        self.obstacles.is_free_by_steps(self.body, &drive)
     }
 
-    /// Whether the body certainly hits something at the end or halfway: a look at two cells.
+    /// Whether the body certainly hits something at one of some places along an arc, about as far
+    /// apart as the body is long: a look at one cell for each.
     pub(super) fn certainly_hits(&self, start: Pose2, arc: Arc) -> bool {
-        let half = Arc::new(arc.curvature_per_m, 0.5 * arc.signed_length_m);
-        [half, arc].into_iter().any(|arc| {
-            let pose = arc.end_from(start);
+        let n_places = (arc.length_m() / self.body.reach_m()).ceil().max(1.0);
+        (1..=n_places as usize).any(|i| {
+            let share = i as f64 / n_places;
+            let part = Arc::new(arc.curvature_per_m, share * arc.signed_length_m);
+            let pose = part.end_from(start);
             self.obstacles.clearance_ceiling_m(self.body, pose) < 0.0
         })
     }

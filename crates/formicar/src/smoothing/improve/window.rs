@@ -25,8 +25,6 @@ struct Draft {
     start: Pose2,
     arc: Arc,
     known_m: Option<f64>,
-    /// Whether it is a part of the path as it was, and so free.
-    is_old: bool,
 }
 
 /// Curves from place to place of a window, one after the other.
@@ -41,6 +39,22 @@ pub(super) struct Route {
 impl Route {
     fn arcs(&self) -> impl DoubleEndedIterator<Item = Arc> + '_ {
         self.curves.iter().flat_map(|curve| curve.arcs()).copied()
+    }
+
+    /// The arcs with the poses at which they begin.
+    fn placed(&self) -> impl Iterator<Item = (Pose2, Arc)> + '_ {
+        let mut pose = self.start;
+        self.arcs().map(move |arc| {
+            let start = pose;
+            pose = arc.end_from(pose);
+            (start, arc)
+        })
+    }
+
+    /// Whether it certainly hits something.
+    pub(super) fn certainly_hits(&self, task: &Task) -> bool {
+        let mut arcs = self.placed();
+        arcs.any(|(start, arc)| task.certainly_hits(start, arc))
     }
 }
 
@@ -103,22 +117,10 @@ impl Window {
     /// Replaces the stretch if that is cheaper and free; whether it was.
     pub(super) fn replace(&self, task: &Task, chain: &mut Chain, route: &Route) -> bool {
         let mut drafts = self.drafts(route);
-        if drafts.is_empty()
-            || drafts
-                .iter()
-                .any(|d| !d.is_old && task.certainly_hits(d.start, d.arc))
-        {
+        if drafts.is_empty() || !self.price(task, &mut drafts) {
             return false;
         }
-        if !self.price(task, &mut drafts) {
-            return false;
-        }
-        let mut pose = route.start;
-        let is_free = route.arcs().all(|arc| {
-            let start = pose;
-            pose = arc.end_from(pose);
-            task.is_free(start, arc)
-        });
+        let is_free = route.placed().all(|(start, arc)| task.is_free(start, arc));
         if is_free {
             let pieces = drafts.iter().map(|draft| Piece {
                 start: draft.start,
@@ -134,16 +136,10 @@ impl Window {
 
     /// The pieces instead of the touched ones, those that continue one motion made one.
     fn drafts(&self, route: &Route) -> Vec<Draft> {
-        let mut pose = route.start;
-        let inner = route.arcs().map(|arc| {
-            let start = pose;
-            pose = arc.end_from(pose);
-            Draft {
-                start,
-                arc,
-                known_m: None,
-                is_old: false,
-            }
+        let inner = route.placed().map(|(start, arc)| Draft {
+            start,
+            arc,
+            known_m: None,
         });
         let mut drafts: Vec<Draft> = Vec::with_capacity(12);
         for draft in self.head.into_iter().chain(inner).chain(self.tail) {
@@ -151,7 +147,6 @@ impl Window {
                 Some(last) if last.arc.continues_in(draft.arc) => {
                     last.arc.signed_length_m += draft.arc.signed_length_m;
                     last.known_m = None;
-                    last.is_old &= draft.is_old;
                 }
                 _ => drafts.push(draft),
             }
@@ -186,7 +181,6 @@ impl Draft {
             start: piece.start,
             arc: piece.arc_before(driven_m),
             known_m: whole.then_some(piece.cost_m),
-            is_old: true,
         })
     }
 
@@ -198,7 +192,6 @@ impl Draft {
             start: piece.pose_at(driven_m),
             arc,
             known_m: whole.then_some(piece.cost_m),
-            is_old: true,
         })
     }
 }
