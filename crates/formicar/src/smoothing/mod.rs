@@ -3,7 +3,8 @@
 //! Redundant nodes go, corners are rounded by 2-turning (Lei & Zheng 2020, sec. III), and
 //! Dubins or Reeds-Shepp curves join the headings at both ends. Every piece is checked with the
 //! swept body; what cannot be passed is named. A B-spline over the nodes (Li 2024) is the other way
-//! to a smooth path, and looks at nothing.
+//! to a smooth path, and looks at nothing. A path that can be driven, wherever it comes from, is
+//! made cheaper by [`Improver`].
 
 mod chain;
 mod config;

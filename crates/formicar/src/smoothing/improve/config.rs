@@ -44,9 +44,9 @@ impl Default for ImproveConfig {
             stall_tries_per_radius: 10,
             stall_gain: 1e-3,
             shortcut_share: 1.0,
-            shift_share: 1.0,
+            shift_share: 2.0,
             cusp_share: 0.3,
-            polish_passes: 4,
+            polish_passes: 1,
             n_checked: 3,
         }
     }
