@@ -161,7 +161,9 @@ mod tests {
     #[test]
     fn what_has_no_tangent_or_corner_gives_nothing() {
         let (from, near) = (Pose2::default(), Pose2::new(1.0, 0.0, 0.0));
-        assert_eq!(Tangents::between(from, near).curve([2.0, -2.0]), None);
+        // Circles to the left of one and to the right of the other overlap.
+        let beside = Pose2::new(1.0, 1.0, 0.0);
+        assert_eq!(Tangents::between(from, beside).curve([2.0, -2.0]), None);
         assert_eq!(Tangents::between(from, near).curve([0.0, 1.0]), None);
         assert_eq!(
             Tangents::between(from, Pose2::new(f64::NAN, 0.0, 0.0)).curve([1.0, 1.0]),
