@@ -100,7 +100,7 @@ impl Case {
             assert!(cost_m < last_m, "{cost_m} after {last_m}");
             last_m = cost_m;
         };
-        let improved = improver.improve(self.start, &self.arcs, Seed(7), &mut limits, &mut tell);
+        let improved = improver.improve((self.start, &self.arcs), Seed(7), &mut limits, &mut tell);
         assert_eq!(improved.n_tries, limits.n_steps());
         assert!(
             (improved.cost_m - last_m).abs() <= 1e-6,

@@ -102,8 +102,7 @@ impl<'a> Improver<'a> {
     /// ends, within 1e-9.
     pub fn improve(
         &self,
-        start: Pose2,
-        arcs: &[Arc],
+        (start, arcs): (Pose2, &[Arc]),
         seed: Seed,
         limits: &mut Limits,
         on_improved: &mut dyn FnMut(&[Arc]),

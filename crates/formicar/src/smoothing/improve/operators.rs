@@ -1,7 +1,7 @@
 //! The ways to change a path: join two of its places anew, move a place, do without a change of
 //! gear.
 
-use super::chain::{Chain, Place};
+use super::chain::{Chain, Piece, Place};
 use super::joins::{Gap, Gears, log_uniform};
 use super::task::Task;
 use super::window::{Route, Window};
@@ -207,7 +207,7 @@ impl Attempt<'_> {
     /// Gears worth trying between two places.
     fn gears_between(&self, from: Place, to: Place) -> Vec<Gears> {
         let pieces = &self.chain.pieces[from.piece..=to.piece];
-        let has_forward = pieces.iter().any(|piece| piece.is_forward());
+        let has_forward = pieces.iter().any(Piece::is_forward);
         let has_reverse = pieces.iter().any(|piece| !piece.is_forward());
         let mut gears = Vec::with_capacity(3);
         if has_forward {

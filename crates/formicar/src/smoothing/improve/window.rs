@@ -38,7 +38,7 @@ pub(super) struct Route {
 
 impl Route {
     fn arcs(&self) -> impl DoubleEndedIterator<Item = Arc> + '_ {
-        self.curves.iter().flat_map(|curve| curve.arcs()).copied()
+        self.curves.iter().flat_map(Curve::arcs).copied()
     }
 
     /// The arcs with the poses at which they begin.
