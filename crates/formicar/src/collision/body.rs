@@ -76,6 +76,11 @@ impl Body {
         outer - point_boundary(center, &self.corners)
     }
 
+    /// How far the covering discs stand out of the sides of the bounding box, metres.
+    pub fn discs_stand_out_m(&self) -> f64 {
+        self.disc_radius - self.half.x.min(self.half.y)
+    }
+
     /// The largest distance of the body from the rear-axle centre, metres.
     pub fn reach_m(&self) -> f64 {
         self.corners.iter().fold(0.0, |r, p| p.norm().max(r))

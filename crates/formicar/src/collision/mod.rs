@@ -10,6 +10,8 @@ mod arc;
 mod body;
 mod contact;
 mod convex;
+mod estimate;
+mod march;
 mod nearest;
 mod obstacle_map;
 mod overlap;

@@ -34,6 +34,16 @@ impl Drive {
             .advance(self.curvature_per_m, fraction * self.signed_length_m)
     }
 
+    /// The part between two fractions of the drive.
+    #[must_use]
+    pub fn between(&self, from: f64, to: f64) -> Self {
+        Self {
+            start: self.pose_at(from),
+            signed_length_m: (to - from) * self.signed_length_m,
+            ..*self
+        }
+    }
+
     /// The drive cut into `n` equal pieces.
     pub fn pieces(&self, n: usize) -> impl Iterator<Item = Self> + '_ {
         let signed_length_m = self.signed_length_m / n as f64;

@@ -67,7 +67,7 @@ impl Arc {
     }
 
     /// Whether driving the other after this one is the same motion going on.
-    fn continues_in(self, next: Self) -> bool {
+    pub fn continues_in(self, next: Self) -> bool {
         self.curvature_per_m == next.curvature_per_m
             && (self.signed_length_m > 0.0) == (next.signed_length_m > 0.0)
     }
@@ -124,6 +124,22 @@ impl Curve {
             curve.push(Arc::new(side / radius_m, length * radius_m));
         }
         curve
+    }
+
+    /// The curve of at most five arcs; those without length are left out.
+    pub(super) fn of_arcs(arcs: impl IntoIterator<Item = Arc>) -> Self {
+        let mut curve = Self::default();
+        for arc in arcs.into_iter().filter(|arc| arc.signed_length_m != 0.0) {
+            curve.push(arc);
+        }
+        curve
+    }
+
+    /// The same ground driven the other way: from its end to its start, in the other gear.
+    #[must_use]
+    pub fn driven_back(&self) -> Self {
+        let back = |arc: &Arc| Arc::new(arc.curvature_per_m, -arc.signed_length_m);
+        Self::of_arcs(self.arcs().iter().rev().map(back))
     }
 
     fn push(&mut self, arc: Arc) {

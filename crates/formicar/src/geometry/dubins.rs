@@ -125,7 +125,7 @@ impl View {
 }
 
 /// An angle in `[-4 pi, 4 pi]` brought to `[0, 2 pi)`; what rounding put just below 2 pi is 0.
-fn to_full_turn(angle: f64) -> f64 {
+pub(super) fn to_full_turn(angle: f64) -> f64 {
     let mut angle = angle;
     while angle < -SLACK {
         angle += TAU;

@@ -5,6 +5,7 @@ mod b_spline;
 mod biarc;
 mod curve;
 pub mod dubins;
+pub mod joins;
 mod point;
 mod polygon;
 mod pose;

@@ -3,12 +3,14 @@
 //! Redundant nodes go, corners are rounded by 2-turning (Lei & Zheng 2020, sec. III), and
 //! Dubins or Reeds-Shepp curves join the headings at both ends. Every piece is checked with the
 //! swept body; what cannot be passed is named. A B-spline over the nodes (Li 2024) is the other way
-//! to a smooth path, and looks at nothing.
+//! to a smooth path, and looks at nothing. A path that can be driven, wherever it comes from, is
+//! made cheaper by [`Improver`].
 
 mod chain;
 mod config;
 mod error;
 mod explain;
+mod improve;
 mod open_list;
 mod polyline;
 mod redundant_nodes;
@@ -21,6 +23,7 @@ mod wide_arcs;
 
 pub use config::{Corners, SmoothingConfig};
 pub use error::{CornerProblem, SmoothingError};
+pub use improve::{ImproveConfig, ImproveProblem, Improved, Improver};
 pub use redundant_nodes::{RedundantNodes, remove_redundant_nodes};
 pub use smooth::{CornerRecord, Ground, Rounding, Smoothed, smooth};
 pub use two_turning::{TurnOrder, TwoTurning};

@@ -1,0 +1,91 @@
+//! Whether a drive is free, by steps as long as the estimated clearance allows.
+
+use super::{Body, Drive, MIN_CLEARANCE_M, ObstacleMap};
+
+/// The estimate exceeds the truth by less than this, cells: distances between centers,
+/// interpolated, exceed the true ones by less than 0.15, and a square reaches from its center to
+/// its corner by 0.21 more than to its side.
+const OVERESTIMATE_CELLS: f64 = 0.4;
+/// Stretches that the estimate cannot settle are checked exactly, so much at once, in half lengths
+/// of the body.
+const EXACT_HALF_LENGTHS: f64 = 0.5;
+/// Clearances beyond this need not be told apart, in half lengths of the body.
+const ENOUGH_HALF_LENGTHS: f64 = 4.0;
+
+impl ObstacleMap {
+    /// The answer of [`Self::is_free`], faster on long drives that mostly keep some distance.
+    ///
+    /// Where the estimated clearance of a pose is c, no point of the body can reach anything before
+    /// it has moved by c less the estimate's error; what lies that near on both sides is free.
+    pub fn is_free_by_steps(&self, body: &Body, drive: &Drive) -> bool {
+        let length_m = drive.signed_length_m.abs();
+        let half_m = body.half.x.max(body.half.y);
+        let least_m = EXACT_HALF_LENGTHS * half_m;
+        if body.inset > 0.0 || length_m <= least_m {
+            return self.is_free(body, drive);
+        }
+        let error_m = OVERESTIMATE_CELLS * self.frame().resolution_m() + MIN_CLEARANCE_M;
+        // How much any point of the body moves while the rear axle moves by 1.
+        let lever = 1.0 + drive.curvature_per_m.abs() * body.reach_m();
+        let (mut free_m, mut at_m) = (0.0, 0.0);
+        loop {
+            let pose = drive.pose_at(at_m / length_m);
+            let estimate_m = self.clearance_estimate_m(body, pose, ENOUGH_HALF_LENGTHS * half_m);
+            let room_m = (estimate_m - error_m) / lever;
+            if room_m > 0.25 * least_m && at_m - room_m < free_m {
+                free_m = at_m + room_m;
+                at_m = free_m + 0.75 * room_m;
+            } else {
+                let to_m = (free_m + least_m).min(length_m);
+                if !self.is_free(body, &drive.between(free_m / length_m, to_m / length_m)) {
+                    return false;
+                }
+                (free_m, at_m) = (to_m, to_m);
+            }
+            if free_m >= length_m {
+                return true;
+            }
+            at_m = at_m.min(length_m);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Pose2;
+    use crate::map::generate::{ScatterParameters, scattered_obstacles};
+    use crate::numeric::Seed;
+    use crate::vehicle::Vehicle;
+
+    #[test]
+    fn answers_as_the_exact_check_does() {
+        let parameters = ScatterParameters {
+            density: 0.01,
+            ..ScatterParameters::default()
+        };
+        let (mut n_free, mut n_hits) = (0, 0);
+        for (seed, vehicle) in [Vehicle::lei2020(), Vehicle::f1tenth()]
+            .into_iter()
+            .enumerate()
+        {
+            let map = scattered_obstacles(&parameters, Seed(seed as u64)).unwrap();
+            let map = ObstacleMap::new(&map);
+            let body = Body::new(&vehicle);
+            let extent = map.frame().extent_m();
+            let mut stream = Seed(6).stream([seed as u64, 0]);
+            for _ in 0..3_000 {
+                let (x, y) = (stream.range(0.0, extent.x), stream.range(0.0, extent.y));
+                let drive = Drive {
+                    start: Pose2::new(x, y, stream.range(-3.0, 3.0)),
+                    curvature_per_m: [0.0, stream.range(-0.5, 0.5)][stream.below(2)],
+                    signed_length_m: stream.range(-10.0, 10.0),
+                };
+                let is_free = map.is_free(&body, &drive);
+                assert_eq!(map.is_free_by_steps(&body, &drive), is_free, "{drive:?}");
+                *(if is_free { &mut n_free } else { &mut n_hits }) += 1;
+            }
+        }
+        assert!(n_free > 200 && n_hits > 200, "{n_free} {n_hits}");
+    }
+}

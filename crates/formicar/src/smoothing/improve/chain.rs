@@ -1,0 +1,137 @@
+//! A driven path as it is improved: pieces with their poses and what they cost.
+
+use super::task::Task;
+use crate::geometry::{Arc, Pose2};
+
+/// A line or arc of the path.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece {
+    pub(super) start: Pose2,
+    pub(super) arc: Arc,
+    /// What it costs where it lies, metres, joints not counted.
+    pub(super) cost_m: f64,
+    /// Driven length before it, metres.
+    pub(super) from_m: f64,
+}
+
+impl Piece {
+    /// The arc up to a driven length.
+    pub(super) fn arc_before(&self, driven_m: f64) -> Arc {
+        let signed_m = driven_m.copysign(self.arc.signed_length_m);
+        Arc::new(self.arc.curvature_per_m, signed_m)
+    }
+
+    /// The arc after a driven length.
+    pub(super) fn arc_after(&self, driven_m: f64) -> Arc {
+        let rest_m = (self.arc.length_m() - driven_m).max(0.0);
+        let signed_m = rest_m.copysign(self.arc.signed_length_m);
+        Arc::new(self.arc.curvature_per_m, signed_m)
+    }
+
+    /// The pose after a driven length.
+    pub(super) fn pose_at(&self, driven_m: f64) -> Pose2 {
+        self.arc_before(driven_m).end_from(self.start)
+    }
+
+    pub(super) fn is_forward(&self) -> bool {
+        self.arc.signed_length_m > 0.0
+    }
+}
+
+/// A place on the path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Place {
+    pub(super) piece: usize,
+    /// Driven on the piece, from 0 to its length, metres.
+    pub(super) driven_m: f64,
+}
+
+/// Pieces one after the other; no two neighbors continue one motion.
+#[derive(Clone, Debug)]
+pub(super) struct Chain {
+    pub(super) pieces: Vec<Piece>,
+    pub(super) length_m: f64,
+    pub(super) cost_m: f64,
+}
+
+impl Chain {
+    /// Places nearer to the end of a piece than this are that end, metres.
+    const SNAP_M: f64 = 1e-6;
+
+    /// The path along arcs that are merged already, at least one.
+    pub(super) fn new(task: &Task, start: Pose2, arcs: &[Arc]) -> Self {
+        let mut pose = start;
+        let place = |&arc: &Arc| {
+            let start = pose;
+            pose = arc.end_from(pose);
+            Piece {
+                start,
+                arc,
+                cost_m: task.meter.arc_m(start, arc),
+                from_m: 0.0,
+            }
+        };
+        let mut chain = Self {
+            pieces: arcs.iter().map(place).collect(),
+            length_m: 0.0,
+            cost_m: 0.0,
+        };
+        chain.measure(task);
+        chain
+    }
+
+    /// Sums up lengths and costs anew.
+    pub(super) fn measure(&mut self, task: &Task) {
+        let mut from_m = 0.0;
+        for piece in &mut self.pieces {
+            piece.from_m = from_m;
+            from_m += piece.arc.length_m();
+        }
+        self.length_m = from_m;
+        let joints = self.pieces.windows(2);
+        let joints = joints.map(|w| task.meter.joint_m(w[0].arc, w[1].arc));
+        self.cost_m = self.pieces.iter().map(|p| p.cost_m).sum::<f64>() + joints.sum::<f64>();
+    }
+
+    pub(super) fn arcs(&self) -> Vec<Arc> {
+        self.pieces.iter().map(|piece| piece.arc).collect()
+    }
+
+    /// The place after a driven length.
+    pub(super) fn place(&self, driven_m: f64) -> Place {
+        let after = self.pieces.partition_point(|p| p.from_m <= driven_m);
+        let piece = after.saturating_sub(1);
+        let length_m = self.pieces[piece].arc.length_m();
+        let on_piece_m = (driven_m - self.pieces[piece].from_m).clamp(0.0, length_m);
+        let driven_m = if on_piece_m < Self::SNAP_M {
+            0.0
+        } else if on_piece_m > length_m - Self::SNAP_M {
+            length_m
+        } else {
+            on_piece_m
+        };
+        Place { piece, driven_m }
+    }
+
+    /// The joint or end of the path that is nearest to a driven length, as a driven length.
+    pub(super) fn nearest_joint_m(&self, driven_m: f64) -> f64 {
+        let piece = &self.pieces[self.place(driven_m).piece];
+        let (from_m, length_m) = (piece.from_m, piece.arc.length_m());
+        if driven_m - from_m < 0.5 * length_m {
+            from_m
+        } else {
+            from_m + length_m
+        }
+    }
+
+    pub(super) fn pose(&self, place: Place) -> Pose2 {
+        self.pieces[place.piece].pose_at(place.driven_m)
+    }
+
+    /// Driven lengths at which the gear changes.
+    pub(super) fn cusps_m(&self) -> Vec<f64> {
+        let joints = self.pieces.windows(2);
+        let cusps = joints.filter(|w| w[0].is_forward() != w[1].is_forward());
+        cusps.map(|w| w[1].from_m).collect()
+    }
+}

@@ -1,0 +1,281 @@
+//! A driven path made cheaper, step by step and never worse: any free chain of arcs becomes another
+//! between the same poses.
+//!
+//! Local search: two places of the path are joined by another curve, a place is moved and joined
+//! anew on both sides, a change of gear is replaced with its surroundings. Curves are Dubins and
+//! Reeds-Shepp words, arcs of two different radii along a common tangent, and rounded corners.
+//! Most curves cost more than what they would replace and are gone after a few operations; what
+//! is left is priced along its way, and what still gains is checked exactly.
+
+mod chain;
+mod config;
+mod joins;
+mod operators;
+mod task;
+mod window;
+
+pub use config::ImproveConfig;
+
+use crate::collision::{Body, ObstacleMap};
+use crate::geometry::{Arc, Pose2, angle_difference};
+use crate::numeric::{RandomStream, Seed};
+use crate::objective::{DriveCost, DriveMeter, SoftCost};
+use crate::progress::{Limits, Status};
+use crate::scenario::MotionMode;
+use chain::Chain;
+use operators::Attempt;
+use task::Task;
+
+/// What a path is improved for; grid coordinates.
+#[derive(Clone, Copy)]
+pub struct ImproveProblem<'a> {
+    /// The map.
+    pub obstacles: &'a ObstacleMap,
+    /// The vehicle's body.
+    pub body: &'a Body,
+    /// The vehicle's least turning radius, metres.
+    pub radius_m: f64,
+    /// Gears that may be used.
+    pub motion: MotionMode,
+    /// What driving costs.
+    pub cost: &'a DriveCost,
+    /// What positions cost besides.
+    pub soft: Option<SoftCost<'a>>,
+}
+
+/// An improved path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Improved {
+    /// Its arcs, from the start pose that was given.
+    pub arcs: Vec<Arc>,
+    /// What it cost before, metres.
+    pub start_cost_m: f64,
+    /// What it costs now, metres.
+    pub cost_m: f64,
+    /// Tries made; each is a step of the limits.
+    pub n_tries: u64,
+    /// What ended it early: budget, deadline or cancel; nothing where tries ceased to gain.
+    pub ended: Option<Status>,
+}
+
+/// Improves driven paths on a map.
+pub struct Improver<'a> {
+    task: Task<'a>,
+}
+
+/// Tries between two looks at whether there is something to tell.
+const TRIES_PER_ROUND: u64 = 64;
+/// The least gain that is worth telling, relative to the cost.
+const TELL_GAIN: f64 = 1e-4;
+/// How far a chain of arcs may end from its goal by rounding, metres and radians.
+const END_TOLERANCE: f64 = 1e-9;
+/// Numbers of pieces that a systematic pass replaces at once, in this order.
+const SPANS: [usize; 6] = [32, 16, 8, 4, 3, 2];
+
+impl<'a> Improver<'a> {
+    /// Prepares the improvement of paths; parameters are taken as checked.
+    pub fn new(problem: &ImproveProblem<'a>, config: &'a ImproveConfig) -> Self {
+        let ImproveProblem {
+            obstacles,
+            body,
+            radius_m,
+            motion,
+            cost,
+            soft,
+        } = *problem;
+        let meter = DriveMeter::new(obstacles, body, cost, radius_m);
+        let meter = soft.map_or(meter, |soft| meter.with_soft_cost(soft));
+        Self {
+            task: Task {
+                obstacles,
+                body,
+                radius_m,
+                motion,
+                meter,
+                config,
+            },
+        }
+    }
+
+    /// Makes a free chain of arcs cheaper until tries cease to gain or a limit ends it. Every chain
+    /// that `on_improved` sees is free, cheaper than the one before, and ends where the first one
+    /// ends, within 1e-9.
+    pub fn improve(
+        &self,
+        (start, arcs): (Pose2, &[Arc]),
+        seed: Seed,
+        limits: &mut Limits,
+        on_improved: &mut dyn FnMut(&[Arc]),
+    ) -> Improved {
+        let best = DriveMeter::merged(arcs);
+        let goal = best.iter().fold(start, |pose, arc| arc.end_from(pose));
+        let mut run = Run {
+            task: &self.task,
+            chain: Chain::new(&self.task, start, &best),
+            start,
+            goal,
+            best_m: 0.0,
+            best,
+            seed,
+            n_tries: 0,
+            limits,
+            on_improved,
+        };
+        run.best_m = run.chain.cost_m;
+        let start_cost_m = run.best_m;
+        let ended = if run.best.is_empty() {
+            None
+        } else {
+            run.search().err()
+        };
+        run.tell();
+        Improved {
+            start_cost_m,
+            cost_m: run.best_m,
+            n_tries: run.n_tries,
+            arcs: run.best,
+            ended,
+        }
+    }
+}
+
+/// The improvement of one path.
+struct Run<'a, 'b, 'c> {
+    task: &'a Task<'a>,
+    chain: Chain,
+    start: Pose2,
+    goal: Pose2,
+    /// The last chain that was checked as a whole, and its cost.
+    best: Vec<Arc>,
+    best_m: f64,
+    seed: Seed,
+    n_tries: u64,
+    limits: &'a mut Limits<'b>,
+    on_improved: &'c mut dyn FnMut(&[Arc]),
+}
+
+impl Run<'_, '_, '_> {
+    fn search(&mut self) -> Result<(), Status> {
+        self.polish()?;
+        self.wander()?;
+        self.polish()
+    }
+
+    /// Random tries until they cease to gain.
+    fn wander(&mut self) -> Result<(), Status> {
+        let config = self.task.config;
+        let mut reference_m = self.chain.cost_m;
+        let mut n_stalled = 0;
+        while self.n_tries < config.max_tries && n_stalled < self.patience() {
+            let mut stream = self.begin()?;
+            let cusps_m = self.chain.cusps_m();
+            let shares = [
+                config.shortcut_share,
+                config.shift_share,
+                if cusps_m.is_empty() {
+                    0.0
+                } else {
+                    config.cusp_share
+                },
+            ];
+            let mut drawn = stream.range(0.0, shares.iter().sum());
+            let mut attempt = self.attempt(stream);
+            if drawn < shares[0] {
+                attempt.shortcut();
+            } else {
+                drawn -= shares[0];
+                if drawn < shares[1] {
+                    attempt.shift();
+                } else if shares[2] > 0.0 {
+                    attempt.without_cusp(&cusps_m);
+                }
+            }
+            n_stalled += 1;
+            if self.chain.cost_m < reference_m * (1.0 - config.stall_gain) {
+                reference_m = self.chain.cost_m;
+                n_stalled = 0;
+            }
+        }
+        Ok(())
+    }
+
+    /// Tries without a gain after which to stop.
+    fn patience(&self) -> u64 {
+        let radii = (self.chain.length_m / self.task.radius_m).max(1.0);
+        (f64::from(self.task.config.stall_tries_per_radius) * radii) as u64
+    }
+
+    /// Replaces every few neighboring pieces, many at once first, as long as that gains.
+    fn polish(&mut self) -> Result<(), Status> {
+        for _ in 0..self.task.config.polish_passes {
+            let before_m = self.chain.cost_m;
+            for span in SPANS {
+                self.pass(span)?;
+            }
+            if self.chain.cost_m >= before_m * (1.0 - self.task.config.stall_gain) {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Tries to replace all stretches of so many pieces.
+    fn pass(&mut self, span: usize) -> Result<(), Status> {
+        let mut first = 0;
+        while first + 1 < self.chain.pieces.len() && self.n_tries < self.task.config.max_tries {
+            let stream = self.begin()?;
+            let last = (first + span).min(self.chain.pieces.len()) - 1;
+            let [from, to] = [first, last].map(|i| self.chain.pieces[i]);
+            let to_m = to.from_m + to.arc.length_m();
+            self.attempt(stream).join([from.from_m, to_m], false);
+            first += (span / 4).max(1);
+        }
+        Ok(())
+    }
+
+    /// Counts a try and gives it its random numbers.
+    fn begin(&mut self) -> Result<RandomStream, Status> {
+        self.limits.step()?;
+        if self.n_tries.is_multiple_of(TRIES_PER_ROUND) {
+            self.tell();
+        }
+        self.n_tries += 1;
+        Ok(self.seed.stream([self.n_tries, 0]))
+    }
+
+    fn attempt(&mut self, stream: RandomStream) -> Attempt<'_> {
+        Attempt {
+            task: self.task,
+            chain: &mut self.chain,
+            stream,
+        }
+    }
+
+    /// Keeps and tells a path that is noticeably cheaper. Replaced stretches meet the path to
+    /// rounding; driven from the start on, that adds up, so that the whole is checked once more.
+    fn tell(&mut self) {
+        if self.chain.cost_m >= self.best_m * (1.0 - TELL_GAIN) {
+            return;
+        }
+        let arcs = self.chain.arcs();
+        if self.holds(&arcs) {
+            self.best_m = self.chain.cost_m;
+            self.best = arcs;
+            (self.on_improved)(&self.best);
+        } else {
+            self.chain = Chain::new(self.task, self.start, &self.best);
+        }
+    }
+
+    fn holds(&self, arcs: &[Arc]) -> bool {
+        let mut pose = self.start;
+        let is_free = arcs.iter().all(|&arc| {
+            let start = pose;
+            pose = arc.end_from(pose);
+            self.task.is_free(start, arc)
+        });
+        let apart_m = pose.position().distance(self.goal.position());
+        let apart_rad = angle_difference(pose.heading, self.goal.heading).abs();
+        is_free && apart_m <= END_TOLERANCE && apart_rad <= END_TOLERANCE
+    }
+}

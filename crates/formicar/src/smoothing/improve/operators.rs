@@ -1,0 +1,244 @@
+//! The ways to change a path: join two of its places anew, move a place, do without a change of
+//! gear.
+
+use super::chain::{Chain, Piece, Place};
+use super::joins::{Gap, Gears, log_uniform};
+use super::task::Task;
+use super::window::{Route, Window};
+use crate::geometry::{Curve, Pose2};
+use crate::numeric::RandomStream;
+
+/// Shortest stretches that are replaced, turning radii.
+const SHORTEST_RADII: f64 = 0.5;
+/// Longest stretches on either side of a place that is moved, turning radii.
+const SHIFT_REACH_RADII: f64 = 12.0;
+/// How far places are moved, turning radii, least and most.
+const SHIFT_RADII: [f64; 2] = [0.005, 1.0];
+/// How much they are turned, radians, least and most.
+const TURN_RAD: [f64; 2] = [0.003, 0.5];
+/// How far from a change of gear it is replaced, turning radii, at most.
+const CUSP_REACH_RADII: f64 = 10.0;
+/// How often an end of a stretch is put onto a joint.
+const JOINT_SHARE: f64 = 0.5;
+/// Both gears are tried in a stretch without reverse if it is shorter than this, turning radii.
+const BOTH_GEARS_RADII: f64 = 8.0;
+/// Curves kept on each side of a place that is moved.
+const N_SIDE_CURVES: usize = 3;
+
+/// One random change of a path.
+pub(super) struct Attempt<'a> {
+    pub(super) task: &'a Task<'a>,
+    pub(super) chain: &'a mut Chain,
+    pub(super) stream: RandomStream,
+}
+
+impl Attempt<'_> {
+    /// Joins two random places; whether the path became cheaper.
+    pub(super) fn shortcut(&mut self) -> bool {
+        let length_m = self.chain.length_m;
+        let shortest_m = SHORTEST_RADII * self.task.radius_m;
+        let window_m = log_uniform(&mut self.stream, shortest_m, length_m);
+        // Stretches may reach over the ends, so that these are as well covered as the middle.
+        let middle_m = self.stream.range(0.0, length_m);
+        let ends_m = [middle_m - 0.5 * window_m, middle_m + 0.5 * window_m];
+        let ends_m = ends_m.map(|end_m| {
+            if self.stream.unit() < JOINT_SHARE {
+                self.chain.nearest_joint_m(end_m)
+            } else {
+                end_m.clamp(0.0, length_m)
+            }
+        });
+        self.join(ends_m, false)
+    }
+
+    /// Joins places on both sides of a change of gear, or of several; whether that was cheaper.
+    pub(super) fn without_cusp(&mut self, cusps_m: &[f64]) -> bool {
+        let first = self.stream.below(cusps_m.len());
+        let last = (first + self.stream.below(3)).min(cusps_m.len() - 1);
+        let reach_m = CUSP_REACH_RADII * self.task.radius_m;
+        let mut reach = || log_uniform(&mut self.stream, 0.02 * reach_m, reach_m);
+        let ends_m = [cusps_m[first] - reach(), cusps_m[last] + reach()];
+        self.join(
+            ends_m.map(|end_m| end_m.clamp(0.0, self.chain.length_m)),
+            true,
+        )
+    }
+
+    /// Joins two places, given as driven lengths; whether the path became cheaper.
+    pub(super) fn join(&mut self, [from_m, to_m]: [f64; 2], any_gears: bool) -> bool {
+        if to_m <= from_m {
+            return false;
+        }
+        let (from, to) = (self.chain.place(from_m), self.chain.place(to_m));
+        let gears = if any_gears {
+            vec![Gears::Forward, Gears::Reverse, Gears::Both]
+        } else {
+            self.gears_between(from, to)
+        };
+        let curves = self.curves([from, to], &gears);
+        let window = Window::new(self.task, self.chain, from, to);
+        let start = self.chain.pose(from);
+        let routes = curves.into_iter().filter_map(|curve| {
+            window.bounded(
+                self.task,
+                Route {
+                    start,
+                    curves: [curve, Curve::default()],
+                    bound_m: 0.0,
+                },
+            )
+        });
+        let routes = routes.collect();
+        self.take_best(window, routes)
+    }
+
+    /// Moves a random place sideways, turns it, and joins it anew on both sides; whether the path
+    /// became cheaper.
+    pub(super) fn shift(&mut self) -> bool {
+        let (length_m, radius_m) = (self.chain.length_m, self.task.radius_m);
+        let middle_m = self.stream.range(0.0, length_m);
+        let shortest_m = SHORTEST_RADII * radius_m;
+        let mut reach = || log_uniform(&mut self.stream, shortest_m, SHIFT_REACH_RADII * radius_m);
+        let ends_m = [middle_m - reach(), middle_m + reach()];
+        let ends_m = ends_m.map(|end_m| end_m.clamp(0.0, length_m));
+        let [from, middle, to] = [ends_m[0], middle_m, ends_m[1]].map(|m| self.chain.place(m));
+        if from == middle || middle == to {
+            return false;
+        }
+        let via = self.moved(middle);
+        let ends = [from, to].map(|place| (self.chain.pose(place), self.curvature_at(place)));
+        let gaps = [
+            Gap {
+                from: ends[0].0,
+                to: via,
+                curvatures_per_m: [ends[0].1, 0.0],
+            },
+            Gap {
+                from: via,
+                to: ends[1].0,
+                curvatures_per_m: [0.0, ends[1].1],
+            },
+        ];
+        let sides = [(from, middle), (middle, to)].map(|(a, b)| self.gears_between(a, b));
+        let [before, after] = [0, 1].map(|side| self.best_curves(gaps[side], &sides[side]));
+        let window = Window::new(self.task, self.chain, from, to);
+        let pairs = before
+            .iter()
+            .flat_map(|&a| after.iter().map(move |&b| [a, b]));
+        let routes = pairs.filter_map(|curves| {
+            window.bounded(
+                self.task,
+                Route {
+                    start: ends[0].0,
+                    curves,
+                    bound_m: 0.0,
+                },
+            )
+        });
+        let routes = routes.collect();
+        self.take_best(window, routes)
+    }
+
+    /// A pose beside that of a place: toward more room where it is tight, else to any side.
+    fn moved(&mut self, place: Place) -> Pose2 {
+        let pose = self.chain.pose(place);
+        let [least, most] = SHIFT_RADII.map(|radii| radii * self.task.radius_m);
+        let by_m = log_uniform(&mut self.stream, least, most);
+        let turn_rad = log_uniform(&mut self.stream, TURN_RAD[0], TURN_RAD[1]);
+        let turn_rad = match self.stream.below(3) {
+            0 => 0.0,
+            1 => turn_rad,
+            _ => -turn_rad,
+        };
+        let beside = |by_m: f64| pose.compose(Pose2::new(0.0, by_m, turn_rad));
+        let sides = [beside(by_m), beside(-by_m)];
+        let follows_room = self.stream.below(2) == 0;
+        let side = self.stream.below(2);
+        let task = self.task;
+        let [left_m, right_m] =
+            sides.map(|pose| task.obstacles.clearance_estimate_m(task.body, pose, by_m));
+        if follows_room && left_m != right_m {
+            sides[usize::from(right_m > left_m)]
+        } else {
+            sides[side]
+        }
+    }
+
+    /// The cheapest curves over a gap on open ground.
+    fn best_curves(&mut self, gap: Gap, gears: &[Gears]) -> Vec<Curve> {
+        let mut curves: Vec<(f64, Curve)> = Vec::new();
+        for &gears in gears {
+            let found = gap.curves(self.task, gears, &mut self.stream).into_iter();
+            curves.extend(found.map(|curve| (self.open_ground_m(&curve), curve)));
+        }
+        curves.sort_by(|a, b| a.0.total_cmp(&b.0));
+        curves.truncate(N_SIDE_CURVES);
+        curves.into_iter().map(|(_, curve)| curve).collect()
+    }
+
+    fn open_ground_m(&self, curve: &Curve) -> f64 {
+        let meter = &self.task.meter;
+        let arcs = curve.arcs();
+        let joints = arcs.windows(2).map(|w| meter.joint_m(w[0], w[1]));
+        arcs.iter()
+            .map(|&arc| meter.open_ground_m(arc))
+            .sum::<f64>()
+            + joints.sum::<f64>()
+    }
+
+    fn curves(&mut self, [from, to]: [Place; 2], gears: &[Gears]) -> Vec<Curve> {
+        let gap = Gap {
+            from: self.chain.pose(from),
+            to: self.chain.pose(to),
+            curvatures_per_m: [from, to].map(|place| self.curvature_at(place)),
+        };
+        let motion = self.task.motion;
+        let mut curves = Vec::new();
+        for &gears in gears.iter().filter(|gears| gears.are_allowed(motion)) {
+            curves.extend(gap.curves(self.task, gears, &mut self.stream));
+        }
+        curves
+    }
+
+    fn curvature_at(&self, place: Place) -> f64 {
+        self.chain.pieces[place.piece].arc.curvature_per_m
+    }
+
+    /// Gears worth trying between two places.
+    fn gears_between(&self, from: Place, to: Place) -> Vec<Gears> {
+        let pieces = &self.chain.pieces[from.piece..=to.piece];
+        let has_forward = pieces.iter().any(Piece::is_forward);
+        let has_reverse = pieces.iter().any(|piece| !piece.is_forward());
+        let mut gears = Vec::with_capacity(3);
+        if has_forward {
+            gears.push(Gears::Forward);
+        }
+        if has_reverse {
+            gears.push(Gears::Reverse);
+        }
+        let length_m = pieces.iter().map(|p| p.arc.length_m()).sum::<f64>();
+        if has_reverse || length_m < BOTH_GEARS_RADII * self.task.radius_m {
+            gears.push(Gears::Both);
+        }
+        gears.retain(|gears| gears.are_allowed(self.task.motion));
+        gears
+    }
+
+    /// Replaces a stretch by the first of the cheapest routes that holds what it promises.
+    fn take_best(&mut self, mut window: Window, mut routes: Vec<Route>) -> bool {
+        routes.sort_by(|a, b| a.bound_m.total_cmp(&b.bound_m));
+        let task = self.task;
+        let n_checked = task.config.n_checked as usize;
+        let routes = routes.iter().filter(|route| !route.certainly_hits(task));
+        for route in routes.take(n_checked) {
+            window.settle(task);
+            if window.bounded(task, *route).is_none() {
+                continue;
+            }
+            if window.replace(task, self.chain, route) {
+                return true;
+            }
+        }
+        false
+    }
+}

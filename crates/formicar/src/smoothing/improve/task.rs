@@ -1,0 +1,42 @@
+//! What a path is improved for: what is free, and what driving costs.
+
+use super::ImproveConfig;
+use crate::collision::{Body, Drive, ObstacleMap};
+use crate::geometry::{Arc, Pose2};
+use crate::objective::DriveMeter;
+use crate::scenario::MotionMode;
+
+/// A body on a map with its parameters; grid coordinates.
+#[derive(Clone, Copy)]
+pub(super) struct Task<'a> {
+    pub(super) obstacles: &'a ObstacleMap,
+    pub(super) body: &'a Body,
+    pub(super) radius_m: f64,
+    pub(super) motion: MotionMode,
+    pub(super) meter: DriveMeter<'a>,
+    pub(super) config: &'a ImproveConfig,
+}
+
+impl Task<'_> {
+    /// Whether the body is free along an arc.
+    pub(super) fn is_free(&self, start: Pose2, arc: Arc) -> bool {
+        let drive = Drive {
+            start,
+            curvature_per_m: arc.curvature_per_m,
+            signed_length_m: arc.signed_length_m,
+        };
+        self.obstacles.is_free_by_steps(self.body, &drive)
+    }
+
+    /// Whether the body certainly hits something at one of some places along an arc, about as far
+    /// apart as the body is long: a look at one cell for each.
+    pub(super) fn certainly_hits(&self, start: Pose2, arc: Arc) -> bool {
+        let n_places = (arc.length_m() / self.body.reach_m()).ceil().max(1.0);
+        (1..=n_places as usize).any(|i| {
+            let share = i as f64 / n_places;
+            let part = Arc::new(arc.curvature_per_m, share * arc.signed_length_m);
+            let pose = part.end_from(start);
+            self.obstacles.clearance_ceiling_m(self.body, pose) < 0.0
+        })
+    }
+}
