@@ -45,6 +45,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         vehicle: scenario.vehicle(),
         start: request.start,
         goal: request.goal,
+        places: &[],
         path: Some(&plan.path),
         profile: &[],
         tightest: Some((tightest, plan.certificate.min_clearance_m)),

@@ -133,6 +133,18 @@ pub struct MapRecord {
     pub unknown: String,
     /// Areas closed for the vehicle, as corners `[x m, y m]`.
     pub keep_out: Vec<Vec<[f64; 2]>>,
+    /// Where the vehicle should rather not drive; missing where it is all the same.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub soft_costs: Option<SoftCostsRecord>,
+}
+
+/// Where soft costs came from.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct SoftCostsRecord {
+    /// File, or `map`: the graded cells of the map itself.
+    pub name: String,
+    /// What they weigh.
+    pub weight: f64,
 }
 
 /// A vehicle by name and measures.

@@ -181,6 +181,11 @@ impl PlannerName {
         self == Self::Faco2024 || self.colony().is_some()
     }
 
+    /// Whether it weighs soft costs; the others pass over them.
+    pub fn heeds_soft_costs(self) -> bool {
+        self == Self::HybridAstar
+    }
+
     /// The colony over cells of this name; none if it is no such colony.
     pub fn colony(self) -> Option<ColonyConfig> {
         match self {

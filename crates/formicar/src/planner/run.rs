@@ -1,6 +1,7 @@
 //! From a request to a certified path: search, curve, judge, metrics.
 
 use super::{NotFound, Outcome, Plan, PlanError, Planner, PlannerName, Stages};
+use crate::layers::SoftCosts;
 use crate::metrics::{ClearanceSummary, PathMetrics};
 use crate::numeric::Seed;
 use crate::path::CurvePath;
@@ -48,7 +49,8 @@ impl From<Status> for Ended {
 }
 
 impl Planner {
-    /// Runs the configured search.
+    /// Runs the configured search for a request without via points; all planners but hybrid A*
+    /// plan to its first goal alone.
     pub(super) fn search(
         &mut self,
         request: &Request,
@@ -71,8 +73,27 @@ impl Planner {
         }
     }
 
+    /// Searches by hybrid A*; where soft costs are given, again with these. A preference fails no
+    /// search: without a path that heeds them, the first one stays.
     fn drive(
         &self,
+        request: &Request,
+        limits: &mut Limits,
+    ) -> Result<Result<Found, Ended>, PlanError> {
+        limits.tell(&Event::SearchStarted);
+        let plain = self.drive_with(None, request, limits)?;
+        let (Some(costs), Ok(_)) = (&self.soft_costs, &plain) else {
+            return Ok(plain);
+        };
+        match self.drive_with(Some(costs), request, limits)? {
+            Err(ended) if ended.status != Status::Cancelled => Ok(plain),
+            preferred => Ok(preferred),
+        }
+    }
+
+    fn drive_with(
+        &self,
+        costs: Option<&SoftCosts>,
         request: &Request,
         limits: &mut Limits,
     ) -> Result<Result<Found, Ended>, PlanError> {
@@ -81,8 +102,8 @@ impl Planner {
             &self.vehicle,
             &self.config.hybrid_astar,
             request,
-        )?;
-        limits.tell(&Event::SearchStarted);
+        )?
+        .with_soft_costs(costs);
         let driven = hybrid_astar(&problem, limits).map_err(Ended::from);
         Ok(driven.map(|(start, arcs)| {
             let start = match request.start_heading {
@@ -127,7 +148,10 @@ impl Planner {
                 let min_m = certificate.min_clearance_m;
                 let clearance =
                     ClearanceSummary::new(&self.obstacles, &self.vehicle, &found.path, min_m);
-                let metrics = PathMetrics::new(&found.path, &self.vehicle, request.goal, clearance);
+                let goal = request
+                    .reached_goal(self.vehicle.motion(), found.path.end())
+                    .goal;
+                let metrics = PathMetrics::new(&found.path, &self.vehicle, goal, clearance);
                 let planner = self.config.planner;
                 Outcome::Found(Box::new(Plan {
                     planner,

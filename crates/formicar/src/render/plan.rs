@@ -24,6 +24,8 @@ pub struct PlanPicture<'a> {
     pub start: Pose2,
     /// Where it should go.
     pub goal: Pose2,
+    /// Other places by name: goals that were not chosen, via points.
+    pub places: &'a [(Point2, String)],
     /// The path, if there is one.
     pub path: Option<&'a CurvePath>,
     /// Values along the path; empty for no charts.
@@ -67,6 +69,9 @@ fn drawn(mut scene: Scene, plan: &PlanPicture) -> Scene {
     }
     scene.pose(plan.start, plan.vehicle, PoseMark::Start);
     scene.pose(plan.goal, plan.vehicle, PoseMark::Goal);
+    for (place, name) in plan.places {
+        scene.point(*place, name);
+    }
     if let Some((place, clearance_m)) = plan.tightest {
         scene.tightest(place, clearance_m);
     }

@@ -18,11 +18,11 @@ impl<'a> Guide<'a> {
     /// Eight directions are up to 8.2 % longer than the straight way: cos(pi / 8).
     const OCTILE_SHRINK: f64 = 0.923_879_532_511_286_7;
     /// Up to how many goal poses curves are measured to; beyond, the goal field alone guides.
-    const MAX_CURVE_GOALS: usize = 2;
+    const MAX_CURVE_GOALS: usize = 4;
     /// Curves count within this many turning radii of the goal; farther off the field says more.
     const CURVE_REACH_RADII: f64 = 12.0;
 
-    /// The guide on obstacles grown by a radius; none where that leaves the goal no way out.
+    /// The guide on obstacles grown by a radius; none where that covers all goals or the start.
     pub(super) fn new(
         problem: &'a HybridProblem<'a>,
         inflation_m: f64,
@@ -39,21 +39,19 @@ impl<'a> Guide<'a> {
             .within(radius.clamp(0.0, truncation - 0.5));
         let blocked = blocked.unwrap_or_else(|| obstacles.lethal().clone());
         let free = |cell: &Cell| !blocked.get(cell.col as usize, cell.row as usize);
-        let goal = problem
-            .goals()
-            .first()
-            .and_then(|&pose| problem.cell(pose))
-            .filter(free);
-        let start = problem
-            .starts()
-            .next()
-            .and_then(|pose| problem.cell(pose))
-            .filter(free);
-        let (Some(goal), Some(_)) = (goal, start) else {
-            return Ok(None);
+        let cells = |poses: &[Pose2]| -> Vec<Cell> {
+            let mut cells: Vec<Cell> = poses.iter().filter_map(|&p| problem.cell(p)).collect();
+            // The headings of a place lie behind each other.
+            cells.dedup();
+            cells.into_iter().filter(free).collect()
         };
+        let starts: Vec<Pose2> = problem.starts().collect();
+        let (goals, starts) = (cells(problem.goals()), cells(&starts));
+        if goals.is_empty() || starts.is_empty() {
+            return Ok(None);
+        }
         let moves = MoveMasks::new(&blocked, DiagonalRule::AtMostOneObstacle);
-        match GoalField::new(&moves, &[goal], &mut limits.without_budget()) {
+        match GoalField::new(&moves, &goals, &mut limits.without_budget()) {
             Ok(field) => Ok(Some(Self { problem, field })),
             Err(error) => error.status().map_or(Ok(None), Err),
         }

@@ -52,9 +52,11 @@ pub fn hybrid_astar(
         (Some(problem), sure, 10 * PATIENCE_STEPS),
         (Some(&fine), sure, u64::MAX),
     ];
+    // Others may have used the same limits before.
+    let n_before = limits.n_steps();
     let most_steps = problem.config().max_iterations;
     for (problem, inflation_m, patience) in stages {
-        let left = most_steps.saturating_sub(limits.n_steps());
+        let left = most_steps.saturating_sub(limits.n_steps() - n_before);
         if left == 0 {
             return Err(Status::BudgetExhausted);
         }
@@ -67,7 +69,7 @@ pub fn hybrid_astar(
             ended => return ended.map(|path| problem.in_driving_order(path)),
         }
     }
-    if limits.n_steps() >= most_steps {
+    if limits.n_steps() - n_before >= most_steps {
         Err(Status::BudgetExhausted)
     } else {
         Err(Status::NoPath)

@@ -4,6 +4,7 @@ use super::HybridAstarConfig;
 use super::tree::Node;
 use crate::collision::{Body, Drive, MIN_CLEARANCE_M, ObstacleMap};
 use crate::geometry::{Arc, Pose2, angle_difference};
+use crate::layers::SoftCosts;
 use crate::map::Cell;
 use crate::scenario::{GoalTolerance, MotionMode, Request};
 use crate::vehicle::{Gears, PrimitiveSet, Vehicle, VehicleError};
@@ -34,6 +35,7 @@ pub struct HybridProblem<'a> {
     sense: f64,
     starts: Vec<Pose2>,
     goals: Vec<Pose2>,
+    soft_costs: Option<&'a SoftCosts>,
 }
 
 impl<'a> HybridProblem<'a> {
@@ -67,6 +69,7 @@ impl<'a> HybridProblem<'a> {
             sense: 1.0,
             starts: Vec::new(),
             goals: Vec::new(),
+            soft_costs: None,
         };
         let to_grid = |poses: Vec<Pose2>| poses.into_iter().map(|p| obstacles.frame().to_grid(p));
         let stands_free = |pose: &Pose2| obstacles.is_free(&problem.body, &Drive::at(*pose));
@@ -74,6 +77,12 @@ impl<'a> HybridProblem<'a> {
         let goals = to_grid(request.goal_poses()).filter(stands_free).collect();
         (problem.starts, problem.goals) = (starts, goals);
         Ok(problem)
+    }
+
+    /// The same query with a preference for some ground over other, on the frame of the map.
+    #[must_use]
+    pub fn with_soft_costs(self, soft_costs: Option<&'a SoftCosts>) -> Self {
+        Self { soft_costs, ..self }
     }
 
     /// The same query on a lattice of steps a quarter as long and headings four times as dense,
@@ -152,6 +161,15 @@ impl<'a> HybridProblem<'a> {
         &self.goals
     }
 
+    /// Number of goals; where the search runs from them, it has one.
+    pub(super) fn n_goals(&self) -> usize {
+        if self.sense > 0.0 {
+            1 + self.request.other_goals.len()
+        } else {
+            1
+        }
+    }
+
     pub(super) fn motion(&self) -> MotionMode {
         self.request.motion
     }
@@ -218,11 +236,8 @@ impl<'a> HybridProblem<'a> {
 
     /// Cost of a motion after a node, at least: its clearance is estimated from its end alone.
     fn least_cost(&self, parent: &Node, arc: Arc, end: Pose2) -> f64 {
-        self.cost(
-            parent,
-            arc,
-            self.obstacles.clearance_ceiling_m(&self.body, end),
-        )
+        let clearance_m = self.obstacles.clearance_ceiling_m(&self.body, end);
+        self.cost(parent, (parent.pose, arc), clearance_m)
     }
 
     /// Cost of a motion from a pose, after a node's motion; none where the body touches anything.
@@ -234,10 +249,10 @@ impl<'a> HybridProblem<'a> {
         };
         let wish_m = self.config.clearance_wish_m.max(2.0 * MIN_CLEARANCE_M);
         let clearance_m = self.obstacles.drive_clearance_m(&self.body, &drive, wish_m);
-        (clearance_m > MIN_CLEARANCE_M).then(|| self.cost(before, arc, clearance_m))
+        (clearance_m > MIN_CLEARANCE_M).then(|| self.cost(before, (from, arc), clearance_m))
     }
 
-    fn cost(&self, before: &Node, arc: Arc, clearance_m: f64) -> f64 {
+    fn cost(&self, before: &Node, (from, arc): (Pose2, Arc), clearance_m: f64) -> f64 {
         let config = self.config;
         let near = if clearance_m < config.clearance_wish_m {
             1.0 - clearance_m.max(0.0) / config.clearance_wish_m
@@ -250,8 +265,22 @@ impl<'a> HybridProblem<'a> {
         } else {
             0.0
         };
-        let factor = self.gear_factor(arc) * self.steering_factor(before.arc, arc);
+        let factor =
+            self.gear_factor(arc) * self.steering_factor(before.arc, arc) * self.soft(from, arc);
         switching + arc.length_m() * factor * (1.0 + config.cost_penalty * near)
+    }
+
+    /// Factor of the ground along a motion; the same for its bound and for its true cost.
+    fn soft(&self, from: Pose2, arc: Arc) -> f64 {
+        const SPACING_CELLS: f64 = 2.0;
+        let Some(costs) = self.soft_costs else {
+            return 1.0;
+        };
+        let spacing_m = SPACING_CELLS * self.obstacles.frame().resolution_m();
+        let n = (arc.length_m() / spacing_m).ceil().max(1.0);
+        let step_m = arc.signed_length_m / n;
+        let place = |i| from.advance(arc.curvature_per_m, step_m * (i as f64 + 1.0));
+        costs.factor((0..n as usize).map(place))
     }
 
     fn gear_factor(&self, arc: Arc) -> f64 {

@@ -5,8 +5,10 @@ use super::tree::Node;
 use crate::geometry::{Arc, Curve, Pose2, dubins, reeds_shepp};
 use crate::scenario::MotionMode;
 
-/// How many words are tried per goal pose, shortest first.
+/// How many words are tried per goal, shortest first.
 const MAX_WORDS: usize = 6;
+/// Of how many goals the words are counted; of more, the nearest get most of them.
+const MAX_COUNTED_GOALS: usize = 4;
 
 /// The cheapest free curve from a node to a goal pose among the shortest words, with its cost.
 pub(super) fn best(problem: &HybridProblem, node: &Node) -> Option<(Vec<Arc>, f64)> {
@@ -18,7 +20,7 @@ pub(super) fn best(problem: &HybridProblem, node: &Node) -> Option<(Vec<Arc>, f6
     curves.sort_by(|a, b| a.length_m().total_cmp(&b.length_m()));
     let costs = curves
         .iter()
-        .take(MAX_WORDS)
+        .take(MAX_WORDS * problem.n_goals().min(MAX_COUNTED_GOALS))
         .filter_map(|curve| Some((curve, cost(problem, node, curve)?)));
     costs
         .min_by(|a, b| a.1.total_cmp(&b.1))
