@@ -41,6 +41,7 @@ pub(crate) fn of(
         start,
         goal,
         places: &places,
+        failure: answer.explanation.as_ref(),
         path,
         profile: &profile,
         tightest: report.map(|r| {

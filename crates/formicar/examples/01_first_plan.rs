@@ -46,6 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         start: request.start,
         goal: request.goal,
         places: &[],
+        failure: None,
         path: Some(&plan.path),
         profile: &[],
         tightest: Some((tightest, plan.certificate.min_clearance_m)),

@@ -8,11 +8,13 @@ mod config;
 mod curve;
 mod evolve;
 mod explain;
+mod explanation;
 mod goals;
 mod outcome;
 mod path_document;
 mod request_document;
 mod run;
+mod sealed;
 mod sections;
 mod via;
 mod via_record;
@@ -23,6 +25,7 @@ pub use answer::{
     ColonyRecord, MapRecord, Provenance, SoftCostsRecord, StoredPath, Timing, VehicleRecord,
 };
 pub use config::{ConfigError, GridSearchConfig, PlannerConfig, PlannerName};
+pub use explanation::{Collision, Disconnected, Explanation, Gap};
 pub use outcome::{NotFound, Outcome, Plan, PlanError, Stages};
 pub use path_document::{POSE_SPACING_M, PathDocument, PoseRecord, SegmentRecord};
 pub use request_document::RequestDocument;
@@ -48,6 +51,8 @@ pub struct Planner {
     soft_costs: Option<Arc<SoftCosts>>,
     /// What searches over cells prepare and reuse.
     cells: Option<cells::PreparedCells>,
+    /// Which parts of the ground hang together for the vehicle's rear axle.
+    axle_ground: Option<Arc<sealed::AxleGround>>,
 }
 
 impl Planner {
@@ -80,6 +85,7 @@ impl Planner {
             n_threads: 1,
             soft_costs: None,
             cells: None,
+            axle_ground: None,
         })
     }
 
@@ -128,7 +134,9 @@ impl Planner {
             return Err(PlanError::DeadlineWithoutClock);
         }
         let mut limits = Limits::new(observer, request.budget_steps, request.deadline);
-        let found = if request.via.is_empty() {
+        let found = if let Some(sealed) = self.sealed_off(request) {
+            Err(sealed)
+        } else if request.via.is_empty() {
             self.reach(request, seed, &mut limits)?
         } else {
             self.search_legs(request, seed, &mut limits)?

@@ -1,6 +1,6 @@
 //! How a query ended.
 
-use super::{ConfigError, PlannerName};
+use super::{ConfigError, Explanation, PlannerName};
 use crate::colony::ColonyRun;
 use crate::evolution::EvolutionRun;
 use crate::layers::Layers;
@@ -115,6 +115,8 @@ pub struct NotFound {
     pub status: Status,
     /// What stood in the way, as a sentence.
     pub reason: String,
+    /// The same in places and measures.
+    pub explanation: Explanation,
     /// The path that the judge refused, with its findings.
     pub refused: Option<(CurvePath, Report)>,
     /// What was computed before it ended.

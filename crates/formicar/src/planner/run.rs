@@ -1,6 +1,6 @@
 //! From a request to a certified path: search, curve, judge, metrics.
 
-use super::{NotFound, Outcome, Plan, PlanError, Planner, PlannerName, Stages};
+use super::{Explanation, NotFound, Outcome, Plan, PlanError, Planner, PlannerName, Stages};
 use crate::layers::SoftCosts;
 use crate::metrics::{ClearanceSummary, PathMetrics};
 use crate::numeric::Seed;
@@ -22,6 +22,8 @@ pub(super) struct Ended {
     pub(super) status: Status,
     /// Why, where the status does not say it all.
     pub(super) reason: Option<String>,
+    /// The same in places and measures, where it is known already.
+    pub(super) explanation: Option<Box<Explanation>>,
     pub(super) stages: Box<Stages>,
 }
 
@@ -30,6 +32,7 @@ impl Ended {
         Self {
             status,
             reason: None,
+            explanation: None,
             stages: Box::new(stages),
         }
     }
@@ -117,6 +120,20 @@ impl Planner {
         }))
     }
 
+    /// A search that ended without a path, explained.
+    fn give_up(&self, request: &Request, ended: Ended, n_steps: u64) -> NotFound {
+        let explained = || self.explain(request, ended.status, n_steps);
+        let measured = || Box::new(self.explanation(request, ended.status));
+        NotFound {
+            status: ended.status,
+            reason: ended.reason.unwrap_or_else(explained),
+            explanation: *ended.explanation.unwrap_or_else(measured),
+            refused: None,
+            stages: *ended.stages,
+            n_steps,
+        }
+    }
+
     /// Lets the judge decide, and says why where there is no path.
     pub(super) fn conclude(
         &self,
@@ -129,14 +146,7 @@ impl Planner {
         let found = match found {
             Ok(found) => found,
             Err(ended) => {
-                let explained = || self.explain(request, ended.status, n_steps);
-                return Outcome::NotFound(Box::new(NotFound {
-                    status: ended.status,
-                    reason: ended.reason.unwrap_or_else(explained),
-                    refused: None,
-                    stages: *ended.stages,
-                    n_steps,
-                }));
+                return Outcome::NotFound(Box::new(self.give_up(request, ended, n_steps)));
             }
         };
         match judge(&self.obstacles, &self.vehicle, request, &found.path).certify() {
@@ -178,6 +188,7 @@ impl Planner {
                 Outcome::NotFound(Box::new(NotFound {
                     status: Status::Infeasible,
                     reason,
+                    explanation: Explanation::default(),
                     refused,
                     stages: found.stages,
                     n_steps,

@@ -1,7 +1,7 @@
 //! Via points: the legs between them one after the other, joined to one path.
 
 use super::run::{Ended, Found};
-use super::{PlanError, Planner};
+use super::{Explanation, PlanError, Planner};
 use crate::collision::{Body, Drive};
 use crate::geometry::Pose2;
 use crate::numeric::Seed;
@@ -143,8 +143,15 @@ impl Journey<'_, '_> {
         let n_steps = self.limits.n_steps();
         let explained = || self.planner.explain(request, ended.status, n_steps);
         let reason = ended.reason.clone().unwrap_or_else(explained);
-        let reason = Some(format!("{}: {reason}", leg_name(self.request, leg)));
-        Ok(Err(Ended { reason, ..ended }))
+        let explanation = Explanation {
+            leg: Some(leg + 1),
+            ..self.planner.explanation(request, ended.status)
+        };
+        Ok(Err(Ended {
+            reason: Some(format!("{}: {reason}", leg_name(self.request, leg))),
+            explanation: Some(Box::new(explanation)),
+            ..ended
+        }))
     }
 
     fn leg_to(&self, from: Option<Pose2>, via: &ViaPoint) -> Request {

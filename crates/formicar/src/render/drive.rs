@@ -45,6 +45,7 @@ pub fn drive_picture(of: &DrivePicture) -> Picture {
         start: of.drive.driven.start(),
         goal: of.planned.end(),
         places: &[],
+        failure: None,
         path: Some(&of.drive.driven),
         profile: &[],
         tightest: of.tightest,

@@ -182,6 +182,7 @@ fn check_end(
         y,
         problem: problem(obstacles, body, grid_pose, poses.len()),
         hint: hint(obstacles, body, grid_pose),
+        cells: obstacles.touched_cells(body, grid_pose),
     })
 }
 

@@ -1,5 +1,6 @@
 //! Requests that cannot be planned for, and Nav2's codes for outcomes.
 
+use crate::map::Cell;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -77,6 +78,8 @@ pub enum ScenarioError {
         problem: String,
         /// Where the vehicle would fit.
         hint: String,
+        /// The obstacle cells that its footprint covers.
+        cells: Vec<Cell>,
     },
 }
 

@@ -17,4 +17,5 @@ pub(crate) use grid_search::check_end;
 pub use grid_search::{GridSearch, SearchError};
 pub use hybrid_astar::{HybridAstarConfig, HybridProblem, hybrid_astar};
 pub use improved_astar::{ImprovedAstarConfig, improved_astar};
+pub(crate) use passage::widest_way_out;
 pub use passage::{Passage, widest_passage};
