@@ -38,6 +38,12 @@ const HALLS: [&str; 8] = [
     ".........#.......",
 ];
 
+/// A vehicle whose rear axle keeps more than a cell from obstacles.
+fn careful() -> Vehicle {
+    let vehicle = Vehicle::warehouse_amr().with_safety_margin(0.2);
+    vehicle.expect("a margin")
+}
+
 fn halls() -> (OccupancyGrid, Request) {
     let map = OccupancyGrid::from_rows(&HALLS, 0.25).expect("rows");
     let request = Request::new(Pose2::new(0.8, 1.0, 0.0), Pose2::new(3.0, 1.0, 0.0));
@@ -47,14 +53,17 @@ fn halls() -> (OccupancyGrid, Request) {
 #[test]
 fn a_crack_is_too_narrow_and_no_step_is_searched() {
     let (map, request) = halls();
-    let failure = failure(&map, Vehicle::warehouse_amr(), &request);
+    let failure = failure(&map, careful(), &request);
     assert_eq!((failure.status, failure.n_steps), (Status::NoPath, 0));
     let gap = failure.explanation.gap.expect("a gap");
     assert!(
         Point2::new(gap.x, gap.y).distance(Point2::new(2.375, 1.125)) < 0.3,
         "{gap:?}"
     );
-    assert_eq!((gap.gap_m, gap.vehicle_width_m), (0.25, 0.62));
+    assert_eq!(
+        (gap.gap_m, gap.vehicle_width_m),
+        (0.25, careful().width_m())
+    );
     let apart = failure.explanation.disconnected.expect("two parts");
     assert!(apart.n_cells_at_start > apart.n_cells_at_goal && apart.n_cells_at_goal > 0);
     assert!(
@@ -90,7 +99,7 @@ fn a_tolerance_that_reaches_over_the_wall_is_no_reason_to_refuse() {
         xy_m: 1.2,
         yaw_rad: 0.5,
     };
-    let outcome = ask(&map, Vehicle::warehouse_amr(), &request);
+    let outcome = ask(&map, careful(), &request);
     assert!(outcome.n_steps() > 0 || outcome.status() == Status::Found);
 }
 
@@ -98,7 +107,7 @@ fn a_tolerance_that_reaches_over_the_wall_is_no_reason_to_refuse() {
 fn the_leg_that_is_sealed_off_is_named() {
     let (map, mut request) = halls();
     request.via = vec![ViaPoint::new(Point2::new(1.2, 1.0))];
-    let failure = failure(&map, Vehicle::warehouse_amr(), &request);
+    let failure = failure(&map, careful(), &request);
     assert_eq!((failure.explanation.leg, failure.n_steps), (Some(2), 0));
     assert!(
         failure.reason.starts_with("leg 2 of 2, from via point 1"),
