@@ -99,8 +99,12 @@ fn a_tolerance_that_reaches_over_the_wall_is_no_reason_to_refuse() {
         xy_m: 1.2,
         yaw_rad: 0.5,
     };
-    let outcome = ask(&map, careful(), &request);
-    assert!(outcome.n_steps() > 0 || outcome.status() == Status::Found);
+    if let Outcome::NotFound(failure) = ask(&map, careful(), &request) {
+        assert_eq!(failure.explanation.disconnected, None);
+    }
+    request.goal_tolerance.xy_m = 0.3;
+    let failure = failure(&map, careful(), &request);
+    assert!(failure.explanation.disconnected.is_some());
 }
 
 #[test]
