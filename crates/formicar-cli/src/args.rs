@@ -6,7 +6,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use formicar::geometry::{Point2, Pose2};
 use formicar::map::UnknownPolicy;
 use formicar::planner::PlannerName;
-use formicar::scenario::{GoalHeading, GoalTolerance, MotionMode, StartHeading};
+use formicar::scenario::{GoalHeading, GoalTolerance, MotionMode, StartHeading, ViaPoint};
 use std::path::PathBuf;
 
 /// Path planning for car-like robots: drivable paths with a certificate, or the reason why not.
@@ -127,9 +127,18 @@ pub(crate) struct PlanArgs {
     #[arg(long, value_name = "X,Y,H", value_parser = values::pose, allow_hyphen_values = true)]
     pub(crate) start: Option<Pose2>,
 
-    /// Goal pose.
+    /// Goal pose; of several, the flag repeated, the path ends at whichever is nearest.
     #[arg(long, value_name = "X,Y,H", value_parser = values::pose, allow_hyphen_values = true)]
-    pub(crate) goal: Option<Pose2>,
+    pub(crate) goal: Vec<Pose2>,
+
+    /// Place to pass on the way, with any heading or a given one; repeated for more, in order.
+    #[arg(long, value_name = "X,Y[,H]", value_parser = values::via, allow_hyphen_values = true)]
+    pub(crate) via: Vec<ViaPoint>,
+
+    /// How far off the path may pass by via points; 0.1,0.1 by default.
+    #[arg(long, value_name = "M,RAD", requires = "via",
+          value_parser = values::goal_tolerance, allow_hyphen_values = true)]
+    pub(crate) via_tolerance: Option<GoalTolerance>,
 
     /// Which gears may be used; `reverse` allows both and penalizes reverse.
     #[arg(long, value_name = "MODE",
@@ -149,6 +158,16 @@ pub(crate) struct PlanArgs {
     /// How far from the goal the path may end; 0.01,0.01 by default.
     #[arg(long, value_name = "M,RAD", value_parser = values::goal_tolerance, allow_hyphen_values = true)]
     pub(crate) goal_tolerance: Option<GoalTolerance>,
+
+    /// Map whose graded cells tell where the vehicle should rather not drive, or `map`: the map
+    /// itself. A preference only; hybrid-astar heeds it.
+    #[arg(long, value_name = "F|map", value_hint = ValueHint::FilePath)]
+    pub(crate) soft_costs: Option<String>,
+
+    /// What soft costs weigh: ground of the highest grade costs 1 + W per metre; 3 by default.
+    #[arg(long, value_name = "W", requires = "soft_costs",
+          value_parser = values::not_negative, allow_hyphen_values = true)]
+    pub(crate) soft_weight: Option<f64>,
 
     /// Planner (see `list planners`); `hybrid-astar` by default, `astar` for a point.
     #[arg(long, value_name = "NAME")]

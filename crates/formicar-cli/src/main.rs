@@ -13,6 +13,7 @@ mod ground;
 mod output;
 mod picture;
 mod settings;
+mod soft_costs;
 mod summary;
 mod values;
 

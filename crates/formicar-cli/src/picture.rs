@@ -5,8 +5,9 @@ use crate::summary::{clearance, counted};
 use anyhow::Result;
 use formicar::collision::{Body, ObstacleMap};
 use formicar::geometry::{Point2, Pose2};
-use formicar::planner::{Answer, Outcome, PoseRecord};
+use formicar::planner::{Answer, Outcome, PoseRecord, RequestDocument};
 use formicar::render::{Layout, Picture, PlanPicture, ProfilePoint, plan_picture_in};
+use formicar::scenario::Request;
 use formicar::vehicle::Vehicle;
 
 /// The formats of pictures.
@@ -31,6 +32,7 @@ pub(crate) fn of(
     layout: Layout,
 ) -> Picture {
     let [start, goal] = ends(answer);
+    let places = places(answer);
     let (path, report) = outcome.judged().unzip();
     let profile = profile(answer).unwrap_or_default();
     let plan = PlanPicture {
@@ -38,6 +40,8 @@ pub(crate) fn of(
         vehicle: &ground.vehicle.vehicle,
         start,
         goal,
+        places: &places,
+        failure: answer.explanation.as_ref(),
         path,
         profile: &profile,
         tightest: report.map(|r| {
@@ -50,13 +54,36 @@ pub(crate) fn of(
     plan_picture_in(&plan, layout)
 }
 
-/// Start and goal of the request.
+/// Start and goal of the request; of several goals that which was reached, or the first.
 pub(crate) fn ends(answer: &Answer) -> [Pose2; 2] {
-    let request = answer.provenance.request.clone().unwrap_or_default();
-    [request.start, request.goal].map(|end| {
-        let [x, y, heading] = end.unwrap_or_default();
-        Pose2::new(x, y, heading)
-    })
+    let request = request(answer);
+    let reached = reached(answer);
+    let goal = request.as_ref().and_then(|r| r.goals().nth(reached));
+    [request.as_ref().map(|r| r.start), goal].map(Option::unwrap_or_default)
+}
+
+/// The goals that were not reached, and the via points, by their names.
+fn places(answer: &Answer) -> Vec<(Point2, String)> {
+    let Some(request) = request(answer) else {
+        return Vec::new();
+    };
+    let reached = reached(answer);
+    let others = request.goals().enumerate().filter(|&(i, _)| i != reached);
+    let others = others.map(|(_, goal)| (goal.position(), "other goal".to_owned()));
+    let via = request.via.iter().enumerate();
+    let via = via.map(|(i, via)| (via.position, format!("via {}", i + 1)));
+    others.chain(via).collect()
+}
+
+fn request(answer: &Answer) -> Option<Request> {
+    let request = answer.provenance.request.as_ref()?;
+    request.onto(&RequestDocument::default()).ok()
+}
+
+/// Which goal was reached.
+fn reached(answer: &Answer) -> usize {
+    let certificate = answer.certificate.as_ref();
+    certificate.and_then(|c| c.goal_index).unwrap_or_default()
 }
 
 /// The map, and how the query ended.

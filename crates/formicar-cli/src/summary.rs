@@ -21,11 +21,12 @@ pub(crate) fn write(
     let n_cusps = changes.filter(|w| w[0].direction != w[1].direction).count();
     writeln!(
         out,
-        "{:<9}  {length_m:.2} m  clearance {}{}  {}",
+        "{:<9}  {length_m:.2} m  clearance {}{}  {}{}",
         answer.status,
         clearance(certificate.min_clearance_m),
         curvature(certificate.max_curvature_per_m, vehicle),
         counted(n_cusps, "cusp"),
+        goal_of_several(answer),
     )?;
     let first = answer
         .timing
@@ -39,6 +40,17 @@ pub(crate) fn write(
         counted(n_improvements as usize, "time"),
         duration(answer.timing.query_s),
     )
+}
+
+/// Which goal was reached; nothing where there was only one.
+fn goal_of_several(answer: &Answer) -> String {
+    let request = answer.provenance.request.as_ref();
+    let goals = request.and_then(|request| request.goals.as_ref());
+    let reached = answer.certificate.as_ref().and_then(|c| c.goal_index);
+    match (goals, reached) {
+        (Some(goals), Some(i)) => format!("  at goal {} of {}", i + 1, goals.len()),
+        _ => String::new(),
+    }
 }
 
 /// Largest curvature against the limit; nothing for a point, which has none.

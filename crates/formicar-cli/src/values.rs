@@ -2,7 +2,7 @@
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use formicar::geometry::{Point2, Pose2};
-use formicar::scenario::GoalTolerance;
+use formicar::scenario::{GoalTolerance, ViaPoint};
 use formicar::tracking::StartOffset;
 use serde::de::DeserializeOwned;
 
@@ -45,6 +45,26 @@ pub(crate) fn point(text: &str) -> Result<Point2, String> {
         return Err("expected X,Y in metres, for instance 2,3.5".to_owned());
     };
     Ok(Point2::new(number(x)?, number(y)?))
+}
+
+/// `X,Y[,H]`: metres, metres, radians (or `90deg`).
+pub(crate) fn via(text: &str) -> Result<ViaPoint, String> {
+    let parts: Vec<_> = text.split(',').collect();
+    let (x, y, heading) = match parts[..] {
+        [x, y] => (x, y, None),
+        [x, y, heading] => (x, y, Some(heading)),
+        _ => {
+            return Err(format!(
+                "{} numbers; expected X,Y or X,Y,HEADING in metres and radians, for instance 2,3,90deg",
+                parts.len()
+            ));
+        }
+    };
+    let via = ViaPoint::new(Point2::new(number(x)?, number(y)?));
+    Ok(match heading {
+        Some(heading) => via.with_heading(angle(heading)?),
+        None => via,
+    })
 }
 
 /// A rate of turn above 0, radians per second (or `30deg`).

@@ -45,6 +45,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         vehicle: scenario.vehicle(),
         start: request.start,
         goal: request.goal,
+        places: &[],
+        failure: None,
         path: Some(&plan.path),
         profile: &[],
         tightest: Some((tightest, plan.certificate.min_clearance_m)),

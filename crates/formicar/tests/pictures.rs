@@ -46,6 +46,8 @@ fn plan(map: &OccupancyGrid, title: &str) -> Picture {
         vehicle: &vehicle,
         start: path.start(),
         goal: path.end(),
+        places: &[],
+        failure: None,
         path: Some(&path),
         profile: &profile(&path),
         tightest: Some((Point2::new(5.0, 5.0), 0.12)),
@@ -129,6 +131,43 @@ fn a_drive_is_drawn_with_its_wheels_and_errors() {
 }
 
 #[test]
+fn a_failure_rings_its_gap_and_draws_colliding_cells() {
+    use formicar::planner::{Collision, Explanation, Gap};
+    let (map, vehicle) = (room(), Vehicle::sedan());
+    let failure = Explanation {
+        collision: Some(Collision {
+            end: "goal".to_owned(),
+            cells: vec![[3, 2], [4, 2], [u32::MAX, 0]],
+        }),
+        gap: Some(Gap {
+            x: 5.0,
+            y: 4.0,
+            gap_m: 0.5,
+            vehicle_width_m: 1.8,
+        }),
+        ..Explanation::default()
+    };
+    let picture = PlanPicture {
+        map: &map,
+        vehicle: &vehicle,
+        start: Pose2::new(3.0, 4.0, 0.0),
+        goal: Pose2::new(6.0, 4.0, 0.0),
+        places: &[],
+        failure: Some(&failure),
+        path: None,
+        profile: &[],
+        tightest: None,
+        title: "none",
+        caption: "no_path",
+    };
+    let svg = plan_picture(&picture).to_svg();
+    check(&svg);
+    for word in ["under the goal", "0.50 m wide", "narrowest place"] {
+        assert!(svg.contains(word), "{word}");
+    }
+}
+
+#[test]
 fn a_failure_is_drawn_with_its_reason() {
     let vehicle = Vehicle::sedan();
     let failure = PlanPicture {
@@ -136,6 +175,8 @@ fn a_failure_is_drawn_with_its_reason() {
         vehicle: &vehicle,
         start: Pose2::new(3.0, 4.0, 0.0),
         goal: Pose2::new(1e9, f64::NAN, 0.0),
+        places: &[],
+        failure: None,
         path: None,
         profile: &[],
         tightest: None,

@@ -8,15 +8,17 @@ use crate::failure::{Ending, Failure, note};
 use crate::ground::{self, Ground};
 use crate::output::Target;
 use crate::picture::{self, PictureKind};
-use crate::{settings, summary};
+use crate::{settings, soft_costs, summary};
 use anyhow::Result;
 use formicar::collision::ObstacleMap;
 use formicar::numeric::Seed;
 use formicar::planner::{
     Answer, AnswerContext, Outcome, PlanError, Planner, PlannerConfig, RequestDocument, Timing,
+    ViaRecord,
 };
 use formicar::progress::AntFrames;
 use formicar::render::Layout;
+use formicar::scenario::ViaPoint;
 use std::io::Write;
 use std::sync::Arc;
 use std::time::Instant;
@@ -59,14 +61,18 @@ pub(crate) fn run(args: &PlanArgs, out: &mut impl Write) -> Result<Ending, Failu
     let begun = Instant::now();
     let targets = Targets::of(args)?;
     let settings = settings::load(args.config.as_deref(), &args.set, args.planner)?;
-    let ground = ground::load(&args.ground)?;
+    let mut ground = ground::load(&args.ground)?;
     let config = settings.for_motion(ground.vehicle.vehicle.motion());
     if targets.ants.is_some() {
         ants::check(config.planner)?;
     }
+    let soft_costs = soft_costs::load(args, &mut ground, config.planner)?;
     let defaults = request(args, &ground);
     let n_threads = args.threads.map_or(1, |n| n as usize);
     let mut session = Session::new(ground, config, begun)?.with_threads(n_threads);
+    if let Some(costs) = soft_costs {
+        session.planner = session.planner.with_soft_costs(&costs);
+    }
     if targets.ants.is_some() {
         session.keep_ants();
     }
@@ -114,10 +120,19 @@ fn request(args: &PlanArgs, ground: &Ground) -> RequestDocument {
         None => [None, None],
     };
     let list = |pose: formicar::geometry::Pose2| [pose.x, pose.y, pose.heading];
+    let own = &args.goal;
+    let (goal, goals) = match own[..] {
+        [] => (goal.map(list), None),
+        [only] => (Some(list(only)), None),
+        _ => (None, Some(own.iter().copied().map(list).collect())),
+    };
+    let via: Vec<_> = args.via.iter().map(|via| via_record(args, via)).collect();
     RequestDocument {
         id: None,
         start: args.start.or(start).map(list),
-        goal: args.goal.or(goal).map(list),
+        goal,
+        goals,
+        via: (!via.is_empty()).then_some(via),
         goal_tolerance: args.goal_tolerance,
         motion: args.motion,
         start_heading: args.start_heading,
@@ -126,6 +141,13 @@ fn request(args: &PlanArgs, ground: &Ground) -> RequestDocument {
         budget_steps: args.budget,
         seed: Some(args.seed),
     }
+}
+
+fn via_record(args: &PlanArgs, via: &ViaPoint) -> ViaRecord {
+    ViaRecord::from(&ViaPoint {
+        tolerance: args.via_tolerance.unwrap_or(via.tolerance),
+        ..*via
+    })
 }
 
 impl Session {

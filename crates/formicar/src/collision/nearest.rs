@@ -46,18 +46,6 @@ impl ObstacleMap {
         bounds.fold(f64::INFINITY, f64::min)
     }
 
-    /// The clearance of a standing body as the distance transform sees it, metres: from discs that
-    /// cover the body to the nearest obstacle cells, half a cell from their centers. The pose is
-    /// given as a position and a unit vector. A preference
-    /// may rest on it, no decision: it may be off by a cell.
-    pub fn clearance_estimate_m(&self, body: &Body, position: Point2, along: Point2) -> f64 {
-        let left = along.perpendicular();
-        let squared = |d: &Point2| self.squared_cells(position + along * d.x + left * d.y);
-        let nearest = body.discs.iter().map(squared).min().unwrap_or(0);
-        let cells = f64::from(nearest).sqrt() - 0.5;
-        cells * self.frame().resolution_m() - body.disc_radius
-    }
-
     /// A quick lower bound of a single piece's distance, by discs and the distance transform.
     fn at_least(&self, sweep: &Sweep) -> f64 {
         let (discs, radius) = sweep.discs();

@@ -143,23 +143,14 @@ impl ObstacleMap {
         )
     }
 
-    /// Squared distance in cells from a point's cell to the nearest obstacle; 0 off the map.
-    pub(super) fn squared_cells(&self, p: Point2) -> u16 {
-        self.squared_distance(p).unwrap_or(0)
-    }
-
     fn cell_distance(&self, p: Point2) -> Option<f64> {
-        self.squared_distance(p).map(|d| f64::from(d).sqrt())
-    }
-
-    fn squared_distance(&self, p: Point2) -> Option<u16> {
         let scale = 1.0 / self.frame.resolution_m();
         let (col, row) = (p.x * scale, p.y * scale);
         let inside = col >= 0.0
             && row >= 0.0
             && col < self.frame.n_cols() as f64
             && row < self.frame.n_rows() as f64;
-        inside.then(|| self.distance.squared(col as usize, row as usize))
+        inside.then(|| f64::from(self.distance.squared(col as usize, row as usize)).sqrt())
     }
 }
 

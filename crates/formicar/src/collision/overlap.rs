@@ -65,6 +65,24 @@ impl ObstacleMap {
         }))
     }
 
+    /// The lethal cells that a standing body touches, row by row; none where it stands free.
+    pub fn touched_cells(&self, body: &Body, pose: Pose2) -> Vec<Cell> {
+        let (low, high) = Sweep::new(body, Drive::at(pose)).bounds();
+        let corners: Vec<Point2> = body.corners.iter().map(|&p| pose.transform(p)).collect();
+        let resolution = self.frame().resolution_m();
+        let half = 0.5 * resolution - body.inset;
+        let (cols, rows) = self.cells_between(low, high, 0.0);
+        let touches = |&(col, row): &(usize, usize)| {
+            let center = Point2::new(col as f64 + 0.5, row as f64 + 0.5) * resolution;
+            penetration(&corners, &Square { center, half }) > -super::MIN_CLEARANCE_M
+        };
+        rows.flat_map(|row| cols.clone().map(move |col| (col, row)))
+            .filter(|&(col, row)| self.lethal().get(col, row))
+            .filter(touches)
+            .map(|(col, row)| Cell::new(col as u32, row as u32))
+            .collect()
+    }
+
     /// The nearest pose with the same heading where the body stands free, searched by rings of
     /// cells up to `reach_m` away.
     pub fn nearest_free_pose(&self, body: &Body, pose: Pose2, reach_m: f64) -> Option<Pose2> {

@@ -11,6 +11,7 @@ mod drive_masks;
 mod expansion;
 mod hull;
 mod pockets;
+mod soft_costs;
 mod swept_masks;
 mod u_shapes;
 
@@ -19,6 +20,7 @@ use crate::map::{BitGrid, Cell, DiagonalRule, ring};
 pub use config::{Expansion, LayersConfig, MAX_EXPANSION_CELLS, UShapes};
 pub use drive_masks::DriveMasks;
 pub use expansion::obstacle_expansion;
+pub use soft_costs::{SoftCosts, SoftCostsError};
 pub use swept_masks::SweptMasks;
 pub use u_shapes::{Pocket, PocketFate};
 

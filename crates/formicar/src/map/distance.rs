@@ -73,6 +73,11 @@ impl DistanceField {
         self.squared[row * self.n_cols + col]
     }
 
+    /// The squared distances of all cells, row by row, lowest row first.
+    pub fn as_slice(&self) -> &[u16] {
+        &self.squared
+    }
+
     /// The squared distances of a row.
     pub fn row(&self, row: usize) -> &[u16] {
         &self.squared[row * self.n_cols..][..self.n_cols]

@@ -1,7 +1,7 @@
 //! The answer document: one definition of what every front end prints about a query.
 
 use super::path_document::{PathDocument, PoseRecord};
-use super::{Outcome, PlanError, PlannerConfig, RequestDocument, Stages};
+use super::{Explanation, Outcome, PlanError, PlannerConfig, RequestDocument, Stages};
 use crate::collision::ObstacleMap;
 use crate::colony::Stop;
 use crate::metrics::PathMetrics;
@@ -40,6 +40,8 @@ pub struct Answer {
     pub code_number: u16,
     /// Why there is no path; null where there is one.
     pub reason: Option<String>,
+    /// The same in places and measures; null where there is a path, or nothing is known.
+    pub explanation: Option<Explanation>,
     /// The planner asked.
     pub planner: &'static str,
     /// The seed it was given.
@@ -133,6 +135,18 @@ pub struct MapRecord {
     pub unknown: String,
     /// Areas closed for the vehicle, as corners `[x m, y m]`.
     pub keep_out: Vec<Vec<[f64; 2]>>,
+    /// Where the vehicle should rather not drive; missing where it is all the same.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub soft_costs: Option<SoftCostsRecord>,
+}
+
+/// Where soft costs came from.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct SoftCostsRecord {
+    /// File, or `map`: the graded cells of the map itself.
+    pub name: String,
+    /// What they weigh.
+    pub weight: f64,
 }
 
 /// A vehicle by name and measures.
@@ -181,6 +195,7 @@ impl AnswerContext<'_> {
             },
             Ok(Outcome::NotFound(failure)) => Answer {
                 reason: Some(failure.reason.clone()),
+                explanation: Some(failure.explanation.clone()),
                 certificate: failure.refused.as_ref().map(|(_, report)| report.clone()),
                 colony: ColonyRecord::new(&failure.stages),
                 ..self.blank(
@@ -192,6 +207,7 @@ impl AnswerContext<'_> {
             },
             Err(error) => Answer {
                 reason: Some(error.to_string()),
+                explanation: error.explanation(),
                 ..self.blank(INVALID_REQUEST, error.code(), document, (seed, timing))
             },
         }
@@ -224,6 +240,7 @@ impl AnswerContext<'_> {
             code: code.name(),
             code_number: code.number(),
             reason: None,
+            explanation: None,
             planner: self.config.planner.name(),
             seed: seed.0,
             certificate: None,

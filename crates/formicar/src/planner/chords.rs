@@ -156,10 +156,7 @@ impl Planner {
                     stages.grid_path = Some(way.clone());
                     stages.nodes = nodes;
                     stages.corners = smoothed.corners;
-                    return Ok(Found {
-                        path: smoothed.path,
-                        stages,
-                    });
+                    return Ok(Found::new(smoothed.path, stages));
                 }
                 Err(error) => {
                     first_error.get_or_insert(error);

@@ -8,8 +8,9 @@ use crate::evolution::EvolutionConfig;
 use crate::layers::{Expansion, LayersConfig, UShapes};
 use crate::map::DiagonalRule;
 use crate::numeric::OutOfRange;
+use crate::objective::DriveCost;
 use crate::search::{HybridAstarConfig, ImprovedAstarConfig};
-use crate::smoothing::{Corners, RedundantNodes, SmoothingConfig};
+use crate::smoothing::{Corners, ImproveConfig, RedundantNodes, SmoothingConfig};
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use thiserror::Error;
@@ -29,6 +30,10 @@ pub struct PlannerConfig {
     pub hybrid_astar: HybridAstarConfig,
     /// The ants that drive, of `formicar`.
     pub drive: DriveConfig,
+    /// What a driven path costs that `formicar` improves.
+    pub cost: DriveCost,
+    /// How `formicar` improves a driven path.
+    pub improve: ImproveConfig,
     /// Which steps the planners over cells take: `astar`, `dijkstra`, `improved-astar`, and `ga`
     /// and `aga`, which measure themselves by the shortest path over cells.
     pub grid_search: GridSearchConfig,
@@ -192,6 +197,11 @@ impl PlannerName {
         self == Self::Faco2024 || self.colony().is_some()
     }
 
+    /// Whether it weighs soft costs; the others pass over them.
+    pub fn heeds_soft_costs(self) -> bool {
+        matches!(self, Self::Formicar | Self::HybridAstar)
+    }
+
     /// The colony over cells of this name; none if it is no such colony.
     pub fn colony(self) -> Option<ColonyConfig> {
         match self {
@@ -266,6 +276,8 @@ impl PlannerConfig {
             planner,
             hybrid_astar: HybridAstarConfig::default(),
             drive: DriveConfig::default(),
+            cost: DriveCost::default(),
+            improve: ImproveConfig::default(),
             grid_search: GridSearchConfig::default(),
             layers: LayersConfig {
                 expansion: Expansion::HalfWidth,
@@ -289,6 +301,8 @@ impl PlannerConfig {
     pub fn check(&self) -> Result<(), ConfigError> {
         self.hybrid_astar.check()?;
         self.drive.check()?;
+        self.cost.check()?;
+        self.improve.check()?;
         self.layers.check()?;
         self.colony.check()?;
         self.chords.check()?;

@@ -45,10 +45,7 @@ impl Planner {
         match smoothed {
             Ok(smoothed) => {
                 stages.corners = smoothed.corners;
-                Ok(Found {
-                    path: smoothed.path,
-                    stages,
-                })
+                Ok(Found::new(smoothed.path, stages))
             }
             Err(error) => {
                 let reason = format!(

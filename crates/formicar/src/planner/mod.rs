@@ -8,24 +8,33 @@ mod config;
 mod curve;
 mod evolve;
 mod explain;
+mod explanation;
+mod goals;
+mod improve;
 mod outcome;
 mod path_document;
 mod race;
 mod request_document;
 mod run;
+mod sealed;
 mod sections;
+mod via;
+mod via_record;
 
 pub use crate::search::{HybridAstarConfig, ImprovedAstarConfig};
 pub use answer::{
     ANSWER_SCHEMA, Answer, AnswerContext, AnswerError, CertificateHashes, CertificateNumbers,
-    ColonyRecord, MapRecord, Provenance, StoredPath, Timing, VehicleRecord,
+    ColonyRecord, MapRecord, Provenance, SoftCostsRecord, StoredPath, Timing, VehicleRecord,
 };
 pub use config::{ConfigError, GridSearchConfig, PlannerConfig, PlannerName};
+pub use explanation::{Collision, Disconnected, Explanation, Gap};
 pub use outcome::{NotFound, Outcome, Plan, PlanError, Stages};
 pub use path_document::{POSE_SPACING_M, PathDocument, PoseRecord, SegmentRecord};
 pub use request_document::RequestDocument;
+pub use via_record::ViaRecord;
 
 use crate::collision::ObstacleMap;
+use crate::layers::SoftCosts;
 use crate::map::OccupancyGrid;
 use crate::numeric::Seed;
 use crate::progress::{Limits, Observer};
@@ -41,10 +50,14 @@ pub struct Planner {
     vehicle: Vehicle,
     config: PlannerConfig,
     n_threads: usize,
+    /// Where the vehicle should rather not drive.
+    soft_costs: Option<Arc<SoftCosts>>,
     /// What searches over cells prepare and reuse.
     cells: Option<cells::PreparedCells>,
     /// What searches that drive prepare and reuse.
     drive_ground: Option<Arc<DriveGround>>,
+    /// Which parts of the ground hang together for the vehicle's rear axle.
+    axle_ground: Option<Arc<sealed::AxleGround>>,
 }
 
 impl Planner {
@@ -75,8 +88,10 @@ impl Planner {
             vehicle,
             config,
             n_threads: 1,
+            soft_costs: None,
             cells: None,
             drive_ground: None,
+            axle_ground: None,
         })
     }
 
@@ -85,6 +100,18 @@ impl Planner {
     #[must_use]
     pub fn with_threads(self, n_threads: usize) -> Self {
         Self { n_threads, ..self }
+    }
+
+    /// The same planner with a preference for some ground over other, brought onto the frame of
+    /// its map. It never makes a path invalid nor a search fail; hybrid A* alone heeds it (see
+    /// [`PlannerName::heeds_soft_costs`]).
+    #[must_use]
+    pub fn with_soft_costs(self, costs: &SoftCosts) -> Self {
+        let costs = costs.onto(self.obstacles.frame());
+        Self {
+            soft_costs: Some(Arc::new(costs)),
+            ..self
+        }
     }
 
     /// The prepared map.
@@ -113,7 +140,13 @@ impl Planner {
             return Err(PlanError::DeadlineWithoutClock);
         }
         let mut limits = Limits::new(observer, request.budget_steps, request.deadline);
-        let found = self.search(request, seed, &mut limits)?;
+        let found = if let Some(sealed) = self.sealed_off(request) {
+            Err(sealed)
+        } else if request.via.is_empty() {
+            self.reach(request, seed, &mut limits)?
+        } else {
+            self.search_legs(request, seed, &mut limits)?
+        };
         Ok(self.conclude(request, seed, found, &mut limits))
     }
 }

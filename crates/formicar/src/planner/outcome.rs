@@ -1,6 +1,6 @@
 //! How a query ended.
 
-use super::{ConfigError, PlannerName};
+use super::{ConfigError, Explanation, PlannerName};
 use crate::colony::ColonyRun;
 use crate::evolution::EvolutionRun;
 use crate::layers::Layers;
@@ -88,6 +88,9 @@ pub struct Plan {
     pub metrics: PathMetrics,
     /// Search steps done.
     pub n_steps: u64,
+    /// What ended the improvement of the path early: the budget or the deadline. Only a deadline
+    /// can make two runs differ.
+    pub cut_by: Option<Status>,
 }
 
 /// What a planner computed before the path that is judged, for pictures and studies; what a
@@ -115,6 +118,8 @@ pub struct NotFound {
     pub status: Status,
     /// What stood in the way, as a sentence.
     pub reason: String,
+    /// The same in places and measures.
+    pub explanation: Explanation,
     /// The path that the judge refused, with its findings.
     pub refused: Option<(CurvePath, Report)>,
     /// What was computed before it ended.

@@ -1,100 +1,58 @@
 //! The race for a first path: ants that drive against hybrid A*, in turns of so many steps, so
 //! that who wins does not depend on a clock.
 
-use super::Planner;
-use super::run::{Ended, Found};
-use super::{PlanError, Stages};
-use crate::colony::drive::DriveColony;
+use crate::colony::drive::{DriveColony, DriveConfig};
 use crate::geometry::{Arc, Pose2};
 use crate::numeric::Seed;
-use crate::path::CurvePath;
-use crate::progress::{Event, Limits, Status};
-use crate::scenario::{Request, StartHeading};
+use crate::progress::{Limits, Status};
 use crate::search::{DriveProblem, Guide, HybridSearch, Stage};
 
-/// Steps of hybrid A* in the first turn.
+/// Steps of hybrid A* in the first turn; each turn is a quarter longer than the one before.
 const FIRST_TURN_STEPS: u64 = 500;
+/// Stages of the ladder in which ants take part.
+const N_ANT_STAGES: usize = 3;
+/// Generations that ants are sent in a stage.
+const N_GENERATIONS: u32 = 60;
 
-impl Planner {
-    /// Lets both run until one has a path.
-    pub(super) fn race(
-        &mut self,
-        request: &Request,
-        seed: Seed,
-        limits: &mut Limits,
-    ) -> Result<Result<Found, Ended>, PlanError> {
-        let ground = self.drive_ground()?;
-        let problem = DriveProblem::new(&ground, &self.config.hybrid_astar, request);
-        limits.tell(&Event::SearchStarted);
-        let driven = self.first_path(&problem, seed, limits).map_err(Ended::from);
-        Ok(driven.map(|(start, arcs)| {
-            let start = match request.start_heading {
-                StartHeading::Exact => request.start,
-                StartHeading::Any => self.obstacles.frame().to_world(start).wrapped(),
-            };
-            Found {
-                path: CurvePath::from_arcs(start, &arcs),
-                stages: Stages::default(),
-            }
-        }))
+/// A start pose and the arcs from there, in grid coordinates.
+pub(super) type Driven = (Pose2, Vec<Arc>);
+
+/// Lets both run, stage by stage, until one has a path.
+///
+/// # Errors
+/// No path on any lattice; budget, deadline or cancel.
+pub(super) fn first_path(
+    problem: &DriveProblem,
+    config: &DriveConfig,
+    seed: Seed,
+    limits: &mut Limits,
+) -> Result<Driven, Status> {
+    if let Some(path) = straight_shot(problem) {
+        return Ok(path);
     }
-
-    fn first_path(
-        &self,
-        problem: &DriveProblem,
-        seed: Seed,
-        limits: &mut Limits,
-    ) -> Result<(Pose2, Vec<Arc>), Status> {
-        if let Some(path) = straight_shot(problem) {
+    let n_before = limits.n_steps();
+    for (place, stage) in Stage::ladder(problem).enumerate() {
+        let most_steps = problem.config().max_iterations;
+        let n_left = most_steps.saturating_sub(limits.n_steps() - n_before);
+        if n_left == 0 {
+            return Err(Status::BudgetExhausted);
+        }
+        let stage = Stage {
+            patience_steps: stage.patience_steps.min(n_left),
+            ..stage
+        };
+        let seed = Seed(seed.stream([place as u64, 0]).next_u64());
+        let ants = (place < N_ANT_STAGES && config.n_ants > 0)
+            .then(|| DriveColony::new(&stage.problem, config, seed));
+        if let Some(path) = run(&stage, ants, limits)? {
             return Ok(path);
         }
-        for (place, stage) in Stage::ladder(problem).enumerate() {
-            if let Some(path) = self.run_stage(&stage, seed, place, limits)? {
-                return Ok(path);
-            }
-        }
-        Err(Status::NoPath)
     }
-
-    fn run_stage(
-        &self,
-        stage: &Stage,
-        seed: Seed,
-        place: usize,
-        limits: &mut Limits,
-    ) -> Result<Option<(Pose2, Vec<Arc>)>, Status> {
-        let problem = &stage.problem;
-        let Some(mut guide) = Guide::new(problem, stage.inflation, limits)? else {
-            return Ok(None);
-        };
-        let mut hybrid = HybridSearch::new(problem, &mut guide, limits)?;
-        let seed = Seed(seed.stream([place as u64, 0]).next_u64());
-        let mut ants = DriveColony::new(problem, &self.config.drive, seed);
-        let (mut n_left, mut turn) = (stage.patience_steps, FIRST_TURN_STEPS);
-        let mut n_generations = 0;
-        while n_left > 0 {
-            if n_generations < 60 && place < 3 && self.config.drive.n_ants > 0 {
-                n_generations += 1;
-                if let Some(path) = ants.send(&mut guide, limits)? {
-                    return Ok(Some(path));
-                }
-            }
-            let n_steps = turn.min(n_left);
-            match hybrid.run(&mut guide, n_steps, limits) {
-                Ok(Some(path)) => return Ok(Some(path)),
-                Ok(None) => {}
-                Err(Status::NoPath) => return Ok(None),
-                Err(status) => return Err(status),
-            }
-            n_left -= n_steps;
-            turn = turn.saturating_mul(5) / 4;
-        }
-        Ok(None)
-    }
+    Err(Status::NoPath)
 }
 
 /// A curve from a start to a goal that meets nothing.
-fn straight_shot(problem: &DriveProblem) -> Option<(Pose2, Vec<Arc>)> {
+fn straight_shot(problem: &DriveProblem) -> Option<Driven> {
     let shots = problem.start_states().filter_map(|start| {
         let (arcs, cost) = problem.shot(&start)?;
         Some((cost, (start.pose, arcs)))
@@ -102,4 +60,38 @@ fn straight_shot(problem: &DriveProblem) -> Option<(Pose2, Vec<Arc>)> {
     shots
         .min_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, path)| path)
+}
+
+/// One stage of the race.
+fn run(
+    stage: &Stage,
+    mut ants: Option<DriveColony>,
+    limits: &mut Limits,
+) -> Result<Option<Driven>, Status> {
+    let Some(mut guide) = Guide::new(&stage.problem, stage.inflation, limits)? else {
+        return Ok(None);
+    };
+    let mut hybrid = HybridSearch::new(&stage.problem, &mut guide, limits)?;
+    let (mut n_left, mut turn) = (stage.patience_steps, FIRST_TURN_STEPS);
+    let mut n_generations = 0;
+    while n_left > 0 {
+        if let Some(ants) = ants.as_mut()
+            && n_generations < N_GENERATIONS
+        {
+            n_generations += 1;
+            if let Some(path) = ants.send(&mut guide, limits)? {
+                return Ok(Some(path));
+            }
+        }
+        let n_steps = turn.min(n_left);
+        match hybrid.run(&mut guide, n_steps, limits) {
+            Ok(Some(path)) => return Ok(Some(path)),
+            Ok(None) => {}
+            Err(Status::NoPath) => return Ok(None),
+            Err(status) => return Err(status),
+        }
+        n_left -= n_steps;
+        turn = turn.saturating_mul(5) / 4;
+    }
+    Ok(None)
 }

@@ -1,5 +1,6 @@
 //! A request as a JSON object: what `plan --stdin` reads and every answer repeats.
 
+use super::via_record::ViaRecord;
 use crate::geometry::Pose2;
 use crate::scenario::ScenarioError;
 use crate::scenario::{GoalHeading, GoalTolerance, MotionMode, Request, StartHeading};
@@ -18,6 +19,13 @@ pub struct RequestDocument {
     pub start: Option<[f64; 3]>,
     /// Goal pose `[x m, y m, heading rad]`.
     pub goal: Option<[f64; 3]>,
+    /// Several goals instead of one, `[x m, y m, heading rad]` each: the path ends at whichever is
+    /// nearest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub goals: Option<Vec<[f64; 3]>>,
+    /// Places that the path passes on its way, in this order.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub via: Option<Vec<ViaRecord>>,
     /// How far from the goal a path may end.
     pub goal_tolerance: Option<GoalTolerance>,
     /// Which gears may be used.
@@ -39,16 +47,26 @@ impl RequestDocument {
     /// The request, with what is left out taken from `defaults`.
     ///
     /// # Errors
-    /// No start or goal here nor there, or a deadline that is no time.
+    /// No start or goal here nor there, `goal` beside `goals`, or a deadline that is no time.
     pub fn onto(&self, defaults: &RequestDocument) -> Result<Request, ScenarioError> {
-        let pose = |own: Option<[f64; 3]>, other: Option<[f64; 3]>, what| {
-            let [x, y, heading] = own.or(other).ok_or(ScenarioError::Missing { what })?;
-            Ok(Pose2::new(x, y, heading))
+        let start = self.start.or(defaults.start);
+        let goals = self.own_goals()?;
+        let mut goals = match goals {
+            Some(goals) => goals,
+            None => defaults.own_goals()?.unwrap_or_default(),
         };
+        if goals.is_empty() {
+            return Err(ScenarioError::Missing { what: "goal" });
+        }
+        let via = self.via.as_ref().or(defaults.via.as_ref());
         let deadline_ms = self.deadline_ms.or(defaults.deadline_ms);
         Ok(Request {
-            start: pose(self.start, defaults.start, "start")?,
-            goal: pose(self.goal, defaults.goal, "goal")?,
+            start: start
+                .map(pose)
+                .ok_or(ScenarioError::Missing { what: "start" })?,
+            goal: goals.remove(0),
+            other_goals: goals,
+            via: via.into_iter().flatten().map(ViaRecord::point).collect(),
             start_heading: self
                 .start_heading
                 .or(defaults.start_heading)
@@ -66,6 +84,22 @@ impl RequestDocument {
             budget_steps: self.budget_steps.or(defaults.budget_steps),
         })
     }
+
+    /// The goals given here, one or several; none where neither is.
+    fn own_goals(&self) -> Result<Option<Vec<Pose2>>, ScenarioError> {
+        match (self.goal, &self.goals) {
+            (Some(_), Some(_)) => Err(ScenarioError::GoalAndGoals),
+            (Some(goal), None) => Ok(Some(vec![pose(goal)])),
+            (None, goals) => {
+                let poses = |goals: &Vec<[f64; 3]>| goals.iter().copied().map(pose).collect();
+                Ok(goals.as_ref().map(poses))
+            }
+        }
+    }
+}
+
+fn pose([x, y, heading]: [f64; 3]) -> Pose2 {
+    Pose2::new(x, y, heading)
 }
 
 /// The longest deadline, milliseconds: a year or so.
@@ -84,11 +118,19 @@ fn deadline(milliseconds: f64) -> Result<Duration, ScenarioError> {
 
 impl From<&Request> for RequestDocument {
     fn from(request: &Request) -> Self {
-        let list = |pose: Pose2| Some([pose.x, pose.y, pose.heading]);
+        let list = |pose: Pose2| [pose.x, pose.y, pose.heading];
+        let (goal, goals) = if request.other_goals.is_empty() {
+            (Some(list(request.goal)), None)
+        } else {
+            (None, Some(request.goals().map(list).collect()))
+        };
+        let via: Vec<_> = request.via.iter().map(ViaRecord::from).collect();
         Self {
             id: None,
-            start: list(request.start),
-            goal: list(request.goal),
+            start: Some(list(request.start)),
+            goal,
+            goals,
+            via: (!via.is_empty()).then_some(via),
             goal_tolerance: Some(request.goal_tolerance),
             motion: Some(request.motion),
             start_heading: Some(request.start_heading),
@@ -103,6 +145,8 @@ impl From<&Request> for RequestDocument {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Point2;
+    use crate::scenario::ViaPoint;
 
     #[test]
     fn a_request_survives_the_wire() {
@@ -112,6 +156,36 @@ mod tests {
         let json = serde_json::to_string(&RequestDocument::from(&request)).unwrap();
         let back: RequestDocument = serde_json::from_str(&json).unwrap();
         assert_eq!(back.onto(&RequestDocument::default()).unwrap(), request);
+    }
+
+    #[test]
+    fn goals_and_via_points_survive_the_wire() {
+        let mut request = Request::new(Pose2::new(1.0, 2.0, 0.1), Pose2::new(3.0, 4.0, -0.1));
+        request.other_goals = vec![Pose2::new(5.0, 6.0, 0.2)];
+        let place = ViaPoint::new(Point2::new(2.0, 3.0));
+        request.via = vec![place, place.with_heading(0.5)];
+        let json = serde_json::to_string(&RequestDocument::from(&request)).unwrap();
+        let back: RequestDocument = serde_json::from_str(&json).unwrap();
+        assert_eq!(back.onto(&RequestDocument::default()).unwrap(), request);
+    }
+
+    #[test]
+    fn own_goals_replace_those_of_the_defaults_and_one_word_serves() {
+        let mut defaults = Request::new(Pose2::default(), Pose2::new(3.0, 4.0, 0.0));
+        let read = |line: &str, defaults: &Request| {
+            let line: RequestDocument = serde_json::from_str(line).unwrap();
+            line.onto(&RequestDocument::from(defaults))
+        };
+        let several = read(r#"{"goals": [[1, 1, 0], [2, 2, 0]]}"#, &defaults).unwrap();
+        assert_eq!((several.goal.x, several.other_goals.len()), (1.0, 1));
+        defaults = several;
+        let one = read(r#"{"goal": [7, 1, 0]}"#, &defaults).unwrap();
+        assert_eq!((one.goal.x, one.other_goals.len()), (7.0, 0));
+        let both = r#"{"goal": [7, 1, 0], "goals": [[7, 1, 0]]}"#;
+        let error = read(both, &defaults).unwrap_err();
+        assert_eq!(error, ScenarioError::GoalAndGoals);
+        let error = read(r#"{"goals": []}"#, &defaults).unwrap_err();
+        assert_eq!(error, ScenarioError::Missing { what: "goal" });
     }
 
     #[test]

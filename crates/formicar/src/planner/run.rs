@@ -1,6 +1,8 @@
 //! From a request to a certified path: search, curve, judge, metrics.
 
-use super::{NotFound, Outcome, Plan, PlanError, Planner, PlannerName, Stages};
+use super::{Explanation, NotFound, Outcome, Plan, PlanError, Planner, PlannerName, Stages};
+use crate::geometry::{self, Pose2};
+use crate::layers::SoftCosts;
 use crate::metrics::{ClearanceSummary, PathMetrics};
 use crate::numeric::Seed;
 use crate::path::CurvePath;
@@ -15,6 +17,18 @@ use std::sync::Arc;
 pub(super) struct Found {
     pub(super) path: CurvePath,
     pub(super) stages: Stages,
+    /// What ended its improvement early.
+    pub(super) cut_by: Option<Status>,
+}
+
+impl Found {
+    pub(super) fn new(path: CurvePath, stages: Stages) -> Self {
+        Self {
+            path,
+            stages,
+            cut_by: None,
+        }
+    }
 }
 
 /// A search that ended by itself without a path.
@@ -22,6 +36,8 @@ pub(super) struct Ended {
     pub(super) status: Status,
     /// Why, where the status does not say it all.
     pub(super) reason: Option<String>,
+    /// The same in places and measures, where it is known already.
+    pub(super) explanation: Option<Box<Explanation>>,
     pub(super) stages: Box<Stages>,
 }
 
@@ -30,6 +46,7 @@ impl Ended {
         Self {
             status,
             reason: None,
+            explanation: None,
             stages: Box::new(stages),
         }
     }
@@ -49,7 +66,8 @@ impl From<Status> for Ended {
 }
 
 impl Planner {
-    /// Runs the configured search.
+    /// Runs the configured search for a request without via points; all planners but hybrid A*
+    /// plan to its first goal alone.
     pub(super) fn search(
         &mut self,
         request: &Request,
@@ -58,7 +76,7 @@ impl Planner {
     ) -> Result<Result<Found, Ended>, PlanError> {
         match self.config.planner {
             PlannerName::Formicar if self.vehicle.motion() == Motion::Car => {
-                self.race(request, seed, limits)
+                self.drive_and_improve(request, seed, limits)
             }
             PlannerName::HybridAstar if self.vehicle.motion() == Motion::Car => {
                 self.drive(request, limits)
@@ -85,25 +103,58 @@ impl Planner {
         Ok(self.drive_ground.insert(ground).clone())
     }
 
+    /// Searches by hybrid A*; where soft costs are given, again with these. A preference fails no
+    /// search: without a path that heeds them, the first one stays.
     fn drive(
         &mut self,
         request: &Request,
         limits: &mut Limits,
     ) -> Result<Result<Found, Ended>, PlanError> {
-        let ground = self.drive_ground()?;
-        let problem = DriveProblem::new(&ground, &self.config.hybrid_astar, request);
         limits.tell(&Event::SearchStarted);
+        let plain = self.drive_with(None, request, limits)?;
+        let (Some(costs), Ok(_)) = (self.soft_costs.clone(), &plain) else {
+            return Ok(plain);
+        };
+        match self.drive_with(Some(&costs), request, limits)? {
+            Err(ended) if ended.status != Status::Cancelled => Ok(plain),
+            preferred => Ok(preferred),
+        }
+    }
+
+    fn drive_with(
+        &mut self,
+        costs: Option<&SoftCosts>,
+        request: &Request,
+        limits: &mut Limits,
+    ) -> Result<Result<Found, Ended>, PlanError> {
+        let ground = self.drive_ground()?;
+        let problem =
+            DriveProblem::new(&ground, &self.config.hybrid_astar, request).with_soft_costs(costs);
         let driven = hybrid_astar(&problem, limits).map_err(Ended::from);
-        Ok(driven.map(|(start, arcs)| {
-            let start = match request.start_heading {
-                StartHeading::Exact => request.start,
-                StartHeading::Any => self.obstacles.frame().to_world(start).wrapped(),
-            };
-            Found {
-                path: CurvePath::from_arcs(start, &arcs),
-                stages: Stages::default(),
-            }
-        }))
+        Ok(driven.map(|(start, arcs)| self.driven(request, start, &arcs)))
+    }
+
+    /// What was found by a search that drives from a start pose in grid coordinates.
+    pub(super) fn driven(&self, request: &Request, start: Pose2, arcs: &[geometry::Arc]) -> Found {
+        let start = match request.start_heading {
+            StartHeading::Exact => request.start,
+            StartHeading::Any => self.obstacles.frame().to_world(start).wrapped(),
+        };
+        Found::new(CurvePath::from_arcs(start, arcs), Stages::default())
+    }
+
+    /// A search that ended without a path, explained.
+    fn give_up(&self, request: &Request, ended: Ended, n_steps: u64) -> NotFound {
+        let explained = || self.explain(request, ended.status, n_steps);
+        let measured = || Box::new(self.explanation(request, ended.status));
+        NotFound {
+            status: ended.status,
+            reason: ended.reason.unwrap_or_else(explained),
+            explanation: *ended.explanation.unwrap_or_else(measured),
+            refused: None,
+            stages: *ended.stages,
+            n_steps,
+        }
     }
 
     /// Lets the judge decide, and says why where there is no path.
@@ -118,14 +169,7 @@ impl Planner {
         let found = match found {
             Ok(found) => found,
             Err(ended) => {
-                let explained = || self.explain(request, ended.status, n_steps);
-                return Outcome::NotFound(Box::new(NotFound {
-                    status: ended.status,
-                    reason: ended.reason.unwrap_or_else(explained),
-                    refused: None,
-                    stages: *ended.stages,
-                    n_steps,
-                }));
+                return Outcome::NotFound(Box::new(self.give_up(request, ended, n_steps)));
             }
         };
         match judge(&self.obstacles, &self.vehicle, request, &found.path).certify() {
@@ -137,7 +181,10 @@ impl Planner {
                 let min_m = certificate.min_clearance_m;
                 let clearance =
                     ClearanceSummary::new(&self.obstacles, &self.vehicle, &found.path, min_m);
-                let metrics = PathMetrics::new(&found.path, &self.vehicle, request.goal, clearance);
+                let goal = request
+                    .reached_goal(self.vehicle.motion(), found.path.end())
+                    .goal;
+                let metrics = PathMetrics::new(&found.path, &self.vehicle, goal, clearance);
                 let planner = self.config.planner;
                 Outcome::Found(Box::new(Plan {
                     planner,
@@ -147,6 +194,7 @@ impl Planner {
                     certificate,
                     metrics,
                     n_steps,
+                    cut_by: found.cut_by,
                 }))
             }
             Err(report) => {
@@ -164,6 +212,7 @@ impl Planner {
                 Outcome::NotFound(Box::new(NotFound {
                     status: Status::Infeasible,
                     reason,
+                    explanation: Explanation::default(),
                     refused,
                     stages: found.stages,
                     n_steps,

@@ -7,9 +7,11 @@ use serde::{Deserialize, Deserializer, Serializer};
 use serde_json::{Map, Value};
 
 /// Names of the sections.
-const SECTIONS: [&str; 9] = [
+const SECTIONS: [&str; 11] = [
     "hybrid_astar",
     "drive",
+    "cost",
+    "improve",
     "grid_search",
     "improved_astar",
     "layers",
@@ -34,6 +36,8 @@ pub(super) fn write<S: Serializer>(
         match name {
             "hybrid_astar" => map.serialize_entry(name, &config.hybrid_astar)?,
             "drive" => map.serialize_entry(name, &config.drive)?,
+            "cost" => map.serialize_entry(name, &config.cost)?,
+            "improve" => map.serialize_entry(name, &config.improve)?,
             "grid_search" => map.serialize_entry(name, &config.grid_search)?,
             "improved_astar" => map.serialize_entry(name, &config.improved_astar)?,
             "layers" => map.serialize_entry(name, &config.layers)?,
@@ -49,7 +53,7 @@ pub(super) fn write<S: Serializer>(
 /// The sections that a planner uses.
 fn sections_of(planner: PlannerName) -> &'static [&'static str] {
     match planner {
-        PlannerName::Formicar => &["hybrid_astar", "drive"],
+        PlannerName::Formicar => &["hybrid_astar", "drive", "cost", "improve"],
         PlannerName::HybridAstar => &["hybrid_astar"],
         PlannerName::Astar | PlannerName::Dijkstra => &["grid_search", "smoothing"],
         PlannerName::ImprovedAstar => &["grid_search", "improved_astar", "smoothing"],
@@ -77,6 +81,8 @@ pub(super) fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Planner
         planner,
         hybrid_astar: section(&mut given, "hybrid_astar", defaults.hybrid_astar)?,
         drive: section(&mut given, "drive", defaults.drive)?,
+        cost: section(&mut given, "cost", defaults.cost)?,
+        improve: section(&mut given, "improve", defaults.improve)?,
         grid_search: section(&mut given, "grid_search", defaults.grid_search)?,
         improved_astar: section(&mut given, "improved_astar", defaults.improved_astar)?,
         layers: section(&mut given, "layers", defaults.layers)?,

@@ -156,6 +156,11 @@ impl<'a> Limits<'a> {
         n_taken
     }
 
+    /// Whether the budget allows another step.
+    pub fn has_steps_left(&self) -> bool {
+        self.budget_steps.is_none_or(|budget| self.n_steps < budget)
+    }
+
     /// Looks at the cancel flag and the clock now.
     ///
     /// # Errors

@@ -44,6 +44,8 @@ pub fn drive_picture(of: &DrivePicture) -> Picture {
         vehicle: of.vehicle,
         start: of.drive.driven.start(),
         goal: of.planned.end(),
+        places: &[],
+        failure: None,
         path: Some(&of.drive.driven),
         profile: &[],
         tightest: of.tightest,

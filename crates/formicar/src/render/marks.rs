@@ -141,6 +141,15 @@ impl Scene {
 
     /// Rings a place and writes its clearance.
     pub fn tightest(&mut self, place: Point2, clearance_m: f64) -> &mut Self {
+        self.ring(place, (&clearance_label(clearance_m), "tightest place"))
+    }
+
+    /// Rings a gap and writes its width.
+    pub fn gap(&mut self, place: Point2, gap_m: f64) -> &mut Self {
+        self.ring(place, (&format!("{gap_m:.2} m wide"), "narrowest place"))
+    }
+
+    fn ring(&mut self, place: Point2, (label, name): (&str, &str)) -> &mut Self {
         let at = self.view.to_px(place);
         if !self.view.shows(at) {
             return self;
@@ -155,10 +164,8 @@ impl Scene {
         self.body.add(&casing.text("stroke-opacity", "0.85"));
         self.body
             .add(&Element::circle(at, RING_PX).pen(palette::LIMIT, 2.4));
-        let label = clearance_label(clearance_m);
-        self.labels
-            .name(at, RING_PX + 5.0, (&label, palette::LIMIT));
-        self.legend.add("tightest place", Swatch::Ring);
+        self.labels.name(at, RING_PX + 5.0, (label, palette::LIMIT));
+        self.legend.add(name, Swatch::Ring);
         self
     }
 

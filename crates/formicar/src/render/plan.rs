@@ -2,10 +2,12 @@
 
 use super::style::clearance_label;
 use super::view::frame_bounds;
-use super::{Layout, Picture, PoseMark, ProfilePoint, Scene, focus, strip_charts};
+use super::{CellStyle, Layout, Picture, PoseMark, ProfilePoint, Scene};
+use super::{focus, palette, strip_charts};
 use crate::geometry::{Point2, Pose2};
-use crate::map::OccupancyGrid;
+use crate::map::{BitGrid, Cell, OccupancyGrid};
 use crate::path::CurvePath;
+use crate::planner::Explanation;
 use crate::vehicle::{Motion, Vehicle};
 
 /// A detail enlarges the map at least so many times.
@@ -24,10 +26,14 @@ pub struct PlanPicture<'a> {
     pub start: Pose2,
     /// Where it should go.
     pub goal: Pose2,
+    /// Other places by name: goals that were not chosen, via points.
+    pub places: &'a [(Point2, String)],
     /// The path, if there is one.
     pub path: Option<&'a CurvePath>,
     /// Values along the path; empty for no charts.
     pub profile: &'a [ProfilePoint],
+    /// Why there is no path: its gap is ringed, its colliding cells are drawn.
+    pub failure: Option<&'a Explanation>,
     /// The tightest place and its clearance in metres.
     pub tightest: Option<(Point2, f64)>,
     /// Heading.
@@ -67,10 +73,38 @@ fn drawn(mut scene: Scene, plan: &PlanPicture) -> Scene {
     }
     scene.pose(plan.start, plan.vehicle, PoseMark::Start);
     scene.pose(plan.goal, plan.vehicle, PoseMark::Goal);
+    if let Some(failure) = plan.failure {
+        draw_failure(&mut scene, plan.map, failure);
+    }
+    for (place, name) in plan.places {
+        scene.point(*place, name);
+    }
     if let Some((place, clearance_m)) = plan.tightest {
         scene.tightest(place, clearance_m);
     }
     scene
+}
+
+/// The cells that a footprint covers, and the gap that is too narrow.
+fn draw_failure(scene: &mut Scene, map: &OccupancyGrid, failure: &Explanation) {
+    let frame = map.frame();
+    if let Some(collision) = &failure.collision {
+        let mut cells = BitGrid::new(frame.n_cols(), frame.n_rows());
+        let on_map = |&&[col, row]: &&[u32; 2]| {
+            (col as usize) < frame.n_cols() && (row as usize) < frame.n_rows()
+        };
+        for &[col, row] in collision.cells.iter().filter(on_map) {
+            cells.insert(Cell::new(col, row));
+        }
+        let style = CellStyle {
+            label: format!("under the {}", collision.end),
+            color: palette::LIMIT,
+        };
+        scene.cells(&cells, &style);
+    }
+    if let Some(gap) = failure.gap {
+        scene.gap(Point2::new(gap.x, gap.y), gap.gap_m);
+    }
 }
 
 /// The tightest place enlarged, and its heading; a point has no body to look at.

@@ -1,12 +1,10 @@
 //! A map, a vehicle and a request that fit together.
 
-use super::GoalHeading;
-use super::{Endpoint, Request, ScenarioError, StartHeading};
+use super::{Endpoint, GoalTolerance, Request, ScenarioError};
 use crate::collision::{Body, Drive, ObstacleMap};
 use crate::geometry::Pose2;
 use crate::map::OccupancyGrid;
 use crate::vehicle::Vehicle;
-use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 /// A checked planning problem.
@@ -69,64 +67,82 @@ impl Scenario {
     }
 }
 
-/// Headings tried where the planner may choose one.
-const N_FREE_HEADINGS: u32 = 72;
+/// The most goals, and the most via points, that one request may have.
+const MAX_PLACES: usize = 100;
 
 impl Request {
     /// Whether this request can be asked on this map with this vehicle.
     ///
+    /// Of several goals one has to be free; the others may be taken.
+    ///
     /// # Errors
     /// As [`Scenario::with_request`].
     pub fn check(&self, obstacles: &ObstacleMap, vehicle: &Vehicle) -> Result<(), ScenarioError> {
-        for (what, pose) in [("start", self.start), ("goal", self.goal)] {
-            if !pose.is_finite() {
-                let value = format!("({}, {}, {})", pose.x, pose.y, pose.heading);
-                return Err(ScenarioError::NotFinite { what, value });
+        self.check_numbers()?;
+        let body = Body::new(vehicle);
+        check_end(obstacles, &body, Endpoint::Start, &self.start_poses())?;
+        for (i, via) in self.via.iter().enumerate() {
+            check_end(obstacles, &body, Endpoint::Via(i + 1), &via.poses())?;
+        }
+        let mut first_taken = None;
+        let mut one_is_free = false;
+        for goal in self.goals() {
+            match check_end(obstacles, &body, Endpoint::Goal, &self.poses_at_goal(goal)) {
+                Ok(()) => one_is_free = true,
+                Err(taken @ ScenarioError::Occupied { .. }) => {
+                    first_taken.get_or_insert(taken);
+                }
+                Err(error) => return Err(error),
             }
         }
-        let tolerance = self.goal_tolerance;
-        for (what, value) in [
-            ("goal tolerance xy", tolerance.xy_m),
-            ("goal tolerance yaw", tolerance.yaw_rad),
+        match first_taken {
+            Some(taken) if !one_is_free => Err(taken),
+            _ => Ok(()),
+        }
+    }
+
+    fn check_numbers(&self) -> Result<(), ScenarioError> {
+        for (what, n) in [
+            ("number of goals", 1 + self.other_goals.len()),
+            ("number of via points", self.via.len()),
         ] {
-            if !(value.is_finite() && value > 0.0) {
+            if n > MAX_PLACES {
                 return Err(ScenarioError::OutOfRange {
                     what,
-                    value,
-                    range: "finite and above 0",
+                    value: n as f64,
+                    range: "at most 100",
                 });
             }
         }
-        let body = Body::new(vehicle);
-        check_end(obstacles, &body, Endpoint::Start, &self.start_poses())?;
-        check_end(obstacles, &body, Endpoint::Goal, &self.goal_poses())
-    }
-
-    /// The start poses that the start-heading mode allows; those of `any` are a sample.
-    pub fn start_poses(&self) -> Vec<Pose2> {
-        match self.start_heading {
-            StartHeading::Exact => vec![self.start],
-            StartHeading::Any => all_around(self.start),
+        check_finite("start", self.start)?;
+        for goal in self.goals() {
+            check_finite("goal", goal)?;
         }
-    }
-
-    /// The goal poses that the goal-heading mode allows; those of `any` are a sample.
-    pub fn goal_poses(&self) -> Vec<Pose2> {
-        match self.goal_heading {
-            GoalHeading::Exact => vec![self.goal],
-            GoalHeading::Bidirectional => vec![self.goal, turned(self.goal, PI)],
-            GoalHeading::Any => all_around(self.goal),
+        check_tolerance("goal tolerance", self.goal_tolerance)?;
+        for via in &self.via {
+            let heading_rad = via.heading_rad.unwrap_or_default();
+            check_finite("via point", Pose2::at(via.position, heading_rad))?;
+            check_tolerance("via tolerance", via.tolerance)?;
         }
+        Ok(())
     }
 }
 
-fn turned(pose: Pose2, turn_rad: f64) -> Pose2 {
-    Pose2::at(pose.position(), pose.heading + turn_rad).wrapped()
+fn check_finite(what: &'static str, pose: Pose2) -> Result<(), ScenarioError> {
+    if pose.is_finite() {
+        return Ok(());
+    }
+    let value = format!("({}, {}, {})", pose.x, pose.y, pose.heading);
+    Err(ScenarioError::NotFinite { what, value })
 }
 
-fn all_around(pose: Pose2) -> Vec<Pose2> {
-    let turn = |i| turned(pose, TAU * f64::from(i) / f64::from(N_FREE_HEADINGS));
-    (0..N_FREE_HEADINGS).map(turn).collect()
+fn check_tolerance(what: &'static str, tolerance: GoalTolerance) -> Result<(), ScenarioError> {
+    for (unit, value) in [("xy", tolerance.xy_m), ("yaw", tolerance.yaw_rad)] {
+        if !(value.is_finite() && value > 0.0) {
+            return Err(ScenarioError::BadTolerance { what, unit, value });
+        }
+    }
+    Ok(())
 }
 
 /// Whether the body stands free at one of the poses, which share a position.
@@ -166,6 +182,7 @@ fn check_end(
         y,
         problem: problem(obstacles, body, grid_pose, poses.len()),
         hint: hint(obstacles, body, grid_pose),
+        cells: obstacles.touched_cells(body, grid_pose),
     })
 }
 
@@ -211,7 +228,7 @@ fn hint(obstacles: &ObstacleMap, body: &Body, grid_pose: Pose2) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::ErrorCode;
+    use crate::scenario::{ErrorCode, GoalHeading, ViaPoint};
 
     fn yard() -> OccupancyGrid {
         let mut rows = vec!["....................".to_owned(); 10];
@@ -278,5 +295,52 @@ mod tests {
             goal_heading: GoalHeading::Any,
             ..request
         }));
+    }
+
+    fn refused(change: impl Fn(&mut Request)) -> Option<String> {
+        let mut request = Request::new(Pose2::new(1.0, 1.0, 0.0), Pose2::new(9.0, 4.0, 1.0));
+        change(&mut request);
+        let map = Arc::new(ObstacleMap::new(&yard()));
+        let error = Scenario::with_request(map, Vehicle::warehouse_amr(), request).err()?;
+        Some(error.to_string())
+    }
+
+    #[test]
+    fn one_free_goal_of_several_is_enough() {
+        let taken = Pose2::new(5.0, 2.7, 0.0);
+        assert_eq!(refused(|r| r.other_goals = vec![taken]), None);
+        assert_eq!(
+            refused(|r| (r.other_goals, r.goal) = (vec![r.goal], taken)),
+            None
+        );
+        let all_taken = refused(|r| (r.other_goals, r.goal) = (vec![taken], taken)).unwrap();
+        assert!(all_taken.starts_with("goal (5.000, 2.700)"), "{all_taken}");
+        let off = refused(|r| r.other_goals = vec![Pose2::new(50.0, 1.0, 0.0)]).unwrap();
+        assert!(off.contains("outside the map"), "{off}");
+        let many = refused(|r| r.other_goals = vec![r.goal; 100]).unwrap();
+        assert!(many.contains("number of goals = 101"), "{many}");
+    }
+
+    #[test]
+    fn via_points_are_named_by_their_number() {
+        let via = |x, y| ViaPoint::new(crate::geometry::Point2::new(x, y));
+        let free = via(2.0, 2.0);
+        assert_eq!(refused(|r| r.via = vec![free, free]), None);
+        let taken = refused(|r| r.via = vec![free, via(5.0, 2.7)]).unwrap();
+        assert!(taken.starts_with("via point 2 (5.000, 2.700)"), "{taken}");
+        assert!(taken.contains("at every heading"), "{taken}");
+        let off = refused(|r| r.via = vec![via(-1.0, 2.0)]).unwrap();
+        assert!(
+            off.starts_with("via point 1") && off.contains("outside"),
+            "{off}"
+        );
+        let none = refused(|r| r.via = vec![free.with_heading(f64::NAN)]).unwrap();
+        assert!(none.contains("via point is not finite"), "{none}");
+        let mut strict = free;
+        strict.tolerance.xy_m = 0.0;
+        let strict = refused(|r| r.via = vec![strict]).unwrap();
+        assert!(strict.contains("via tolerance xy = 0"), "{strict}");
+        let many = refused(|r| r.via = vec![free; 101]).unwrap();
+        assert!(many.contains("number of via points = 101"), "{many}");
     }
 }

@@ -1,5 +1,6 @@
 //! Requests that cannot be planned for, and Nav2's codes for outcomes.
 
+use crate::map::Cell;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -31,10 +32,23 @@ pub enum ScenarioError {
         /// What is allowed.
         range: &'static str,
     },
+    /// A tolerance that is none.
+    #[error("{what} {unit} = {value}; it must be finite and above 0")]
+    BadTolerance {
+        /// Of the goal or of a via point.
+        what: &'static str,
+        /// `xy` or `yaw`.
+        unit: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// Two ways of saying where to go.
+    #[error("goal and goals are both given; hint: put every goal into goals")]
+    GoalAndGoals,
     /// A pose off the map.
     #[error("{which} ({x:.3}, {y:.3}) m lies outside the map, which spans ({low_x:.3}, {low_y:.3}) to ({high_x:.3}, {high_y:.3}) m{}", yaw_note(*yaw_rad))]
     OutsideMap {
-        /// Start or goal.
+        /// Start, goal or via point.
         which: Endpoint,
         /// Metres.
         x: f64,
@@ -54,7 +68,7 @@ pub enum ScenarioError {
     /// A pose where the vehicle does not fit.
     #[error("{which} ({x:.3}, {y:.3}) m: {problem}; hint: {hint}")]
     Occupied {
-        /// Start or goal.
+        /// Start, goal or via point.
         which: Endpoint,
         /// Metres.
         x: f64,
@@ -64,6 +78,8 @@ pub enum ScenarioError {
         problem: String,
         /// Where the vehicle would fit.
         hint: String,
+        /// The obstacle cells that its footprint covers.
+        cells: Vec<Cell>,
     },
 }
 
@@ -75,21 +91,24 @@ fn yaw_note(yaw_rad: f64) -> String {
     }
 }
 
-/// Which end of a path.
+/// Which end of a path, or of a part of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Endpoint {
     /// The first pose.
     Start,
     /// The last pose.
     Goal,
+    /// A via point, counted from 1.
+    Via(usize),
 }
 
 impl std::fmt::Display for Endpoint {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Start => "start",
-            Self::Goal => "goal",
-        })
+        match self {
+            Self::Start => f.write_str("start"),
+            Self::Goal => f.write_str("goal"),
+            Self::Via(n) => write!(f, "via point {n}"),
+        }
     }
 }
 
@@ -149,8 +168,9 @@ impl From<&ScenarioError> for ErrorCode {
                 which: Endpoint::Start,
                 ..
             } => Self::StartOutsideMap,
+            // A via point is the goal of a part of the path.
             ScenarioError::OutsideMap {
-                which: Endpoint::Goal,
+                which: Endpoint::Goal | Endpoint::Via(_),
                 ..
             } => Self::GoalOutsideMap,
             ScenarioError::Occupied {
@@ -158,7 +178,7 @@ impl From<&ScenarioError> for ErrorCode {
                 ..
             } => Self::StartOccupied,
             ScenarioError::Occupied {
-                which: Endpoint::Goal,
+                which: Endpoint::Goal | Endpoint::Via(_),
                 ..
             } => Self::GoalOccupied,
             _ => Self::Unknown,

@@ -2,8 +2,10 @@
 
 mod check;
 mod error;
+mod goals;
 mod request;
 
 pub use check::Scenario;
 pub use error::{Endpoint, ErrorCode, ScenarioError};
-pub use request::{GoalHeading, GoalTolerance, MotionMode, Request, StartHeading};
+pub use goals::ReachedGoal;
+pub use request::{GoalHeading, GoalTolerance, MotionMode, Request, StartHeading, ViaPoint};

@@ -1,6 +1,6 @@
 //! One question to a planner.
 
-use crate::geometry::Pose2;
+use crate::geometry::{Point2, Pose2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
@@ -12,6 +12,11 @@ pub struct Request {
     pub start: Pose2,
     /// Pose of the rear-axle centre at the end.
     pub goal: Pose2,
+    /// Other goals, under the same heading mode and tolerance: the path ends at whichever is
+    /// nearest.
+    pub other_goals: Vec<Pose2>,
+    /// Places that the path passes on its way, in this order.
+    pub via: Vec<ViaPoint>,
     /// Whether the start heading is fixed.
     pub start_heading: StartHeading,
     /// Whether the goal heading is fixed.
@@ -33,12 +38,51 @@ impl Request {
         Self {
             start,
             goal,
+            other_goals: Vec::new(),
+            via: Vec::new(),
             start_heading: StartHeading::default(),
             goal_heading: GoalHeading::default(),
             goal_tolerance: GoalTolerance::default(),
             motion: MotionMode::default(),
             deadline: None,
             budget_steps: None,
+        }
+    }
+}
+
+/// A place that a path passes: the rear-axle centre comes within the tolerance of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ViaPoint {
+    /// Where.
+    pub position: Point2,
+    /// The heading there, radians; none where the planner chooses.
+    pub heading_rad: Option<f64>,
+    /// How far off the path may pass.
+    pub tolerance: GoalTolerance,
+}
+
+impl ViaPoint {
+    /// How far off a path may pass where nothing else is asked for.
+    pub const DEFAULT_TOLERANCE: GoalTolerance = GoalTolerance {
+        xy_m: 0.1,
+        yaw_rad: 0.1,
+    };
+
+    /// A place to be passed with any heading, within [`Self::DEFAULT_TOLERANCE`].
+    pub fn new(position: Point2) -> Self {
+        Self {
+            position,
+            heading_rad: None,
+            tolerance: Self::DEFAULT_TOLERANCE,
+        }
+    }
+
+    /// The same place with a heading.
+    #[must_use]
+    pub fn with_heading(self, heading_rad: f64) -> Self {
+        Self {
+            heading_rad: Some(heading_rad),
+            ..self
         }
     }
 }

@@ -16,77 +16,119 @@ pub struct Passage {
 
 /// The way between two cells whose least distance from obstacles is largest; none where obstacles
 /// separate them. Ways step to all eight neighbors, never between two obstacles.
-///
-/// Cost is proportional to the cells visited: a search by falling distance in one bucket per
-/// squared distance.
 pub fn widest_passage(distance: &DistanceField, from: Cell, to: Cell) -> Option<Passage> {
-    const UNSEEN: u8 = u8::MAX;
-    const FIRST: u8 = 8;
-    let (n_cols, n_rows) = (distance.n_cols(), distance.n_rows());
-    let on_map = |cell: Cell| (cell.col as usize) < n_cols && (cell.row as usize) < n_rows;
-    if !on_map(from) || !on_map(to) {
+    if !is_on(distance, to) {
         return None;
     }
-    let clear = |cell: Cell| distance.squared(cell.col as usize, cell.row as usize);
-    let index = |cell: Cell| cell.row as usize * n_cols + cell.col as usize;
-    let mut came_by = vec![UNSEEN; n_cols * n_rows];
-    let mut buckets = vec![Vec::new(); (distance.truncation_cells() as usize).pow(2) + 1];
-    let mut level = clear(from) as usize;
-    came_by[index(from)] = FIRST;
-    buckets[level].push(from);
+    let goal = to.row as usize * distance.n_cols() + to.col as usize;
+    widest_way_out(distance, from, |index| index == goal)
+}
+
+/// The same to the first cell that `is_there` accepts, given its place row by row, where all such
+/// cells lie wider than the narrowest place on the way to them.
+///
+/// Cost is proportional to the cells visited, but for clearing five bytes per cell: a search by
+/// falling distance, with one stack per squared distance, all in one list.
+pub(crate) fn widest_way_out(
+    distance: &DistanceField,
+    from: Cell,
+    is_there: impl Fn(usize) -> bool,
+) -> Option<Passage> {
+    if !is_on(distance, from) {
+        return None;
+    }
+    let n_cols = distance.n_cols();
+    let clear = distance.as_slice();
+    let start = from.row as usize * n_cols + from.col as usize;
+    let mut came_by = vec![UNSEEN; clear.len()];
+    let mut level = usize::from(clear[start]);
+    let mut stacks = Stacks::new(clear.len(), level);
+    came_by[start] = FIRST;
+    stacks.push(level, start);
     while level > 0 {
-        let Some(cell) = buckets[level].pop() else {
+        let Some(index) = stacks.pop(level) else {
             level -= 1;
             continue;
         };
-        if cell == to {
-            return Some(trace(distance, &came_by, from, to));
+        if is_there(index) {
+            return Some(trace(distance, &came_by, start, index));
         }
-        for (step, next) in neighbors(distance, cell) {
-            if came_by[index(next)] == UNSEEN {
-                came_by[index(next)] = step;
-                buckets[level.min(clear(next) as usize)].push(next);
+        let (col, row) = (index % n_cols, index / n_cols);
+        for (step, &(dx, dy)) in STEPS.iter().enumerate() {
+            let (to_col, to_row) = (
+                col.wrapping_add_signed(dx as isize),
+                row.wrapping_add_signed(dy as isize),
+            );
+            if to_col >= n_cols || to_row >= distance.n_rows() {
+                continue;
+            }
+            let next = to_row * n_cols + to_col;
+            let squeezes =
+                || clear[row * n_cols + to_col] == 0 && clear[to_row * n_cols + col] == 0;
+            if came_by[next] == UNSEEN && clear[next] > 0 && !squeezes() {
+                came_by[next] = step as u8;
+                stacks.push(level.min(usize::from(clear[next])), next);
             }
         }
     }
     None
 }
 
-/// Free neighbors, with the step that leads there.
-fn neighbors(distance: &DistanceField, cell: Cell) -> impl Iterator<Item = (u8, Cell)> + '_ {
-    let free = |col: u32, row: u32| distance.squared(col as usize, row as usize) > 0;
-    STEPS
-        .iter()
-        .enumerate()
-        .filter_map(move |(step, &(dx, dy))| {
-            let (col, row) = (
-                cell.col.checked_add_signed(dx)?,
-                cell.row.checked_add_signed(dy)?,
-            );
-            let on_map = (col as usize) < distance.n_cols() && (row as usize) < distance.n_rows();
-            let open = on_map && free(col, row) && (free(cell.col, row) || free(col, cell.row));
-            open.then(|| (step as u8, Cell::new(col, row)))
-        })
+/// A cell that nothing has reached.
+const UNSEEN: u8 = u8::MAX;
+/// The first cell, which no step has reached.
+const FIRST: u8 = 8;
+
+fn is_on(distance: &DistanceField, cell: Cell) -> bool {
+    (cell.col as usize) < distance.n_cols() && (cell.row as usize) < distance.n_rows()
 }
 
-fn trace(distance: &DistanceField, came_by: &[u8], from: Cell, to: Cell) -> Passage {
-    let mut cells = vec![to];
-    let mut cell = to;
-    while cell != from {
-        let (dx, dy) =
-            STEPS[came_by[cell.row as usize * distance.n_cols() + cell.col as usize] as usize];
-        cell = Cell::new(
-            cell.col.wrapping_add_signed(-dx),
-            cell.row.wrapping_add_signed(-dy),
-        );
-        cells.push(cell);
+/// A stack of cells per level; a cell is in one of them at most once.
+struct Stacks {
+    tops: Vec<u32>,
+    below: Vec<u32>,
+}
+
+impl Stacks {
+    const BOTTOM: u32 = u32::MAX;
+
+    fn new(n_cells: usize, highest: usize) -> Self {
+        Self {
+            tops: vec![Self::BOTTOM; highest + 1],
+            below: vec![0; n_cells],
+        }
+    }
+
+    fn push(&mut self, level: usize, cell: usize) {
+        self.below[cell] = self.tops[level];
+        self.tops[level] = cell as u32;
+    }
+
+    fn pop(&mut self, level: usize) -> Option<usize> {
+        let top = self.tops[level];
+        (top != Self::BOTTOM).then(|| {
+            self.tops[level] = self.below[top as usize];
+            top as usize
+        })
+    }
+}
+
+fn trace(distance: &DistanceField, came_by: &[u8], start: usize, end: usize) -> Passage {
+    let n_cols = distance.n_cols();
+    let cell = |index: usize| Cell::new((index % n_cols) as u32, (index / n_cols) as u32);
+    let mut cells = vec![cell(end)];
+    let mut index = end;
+    while index != start {
+        let (dx, dy) = STEPS[came_by[index] as usize];
+        index = index.wrapping_add_signed(-(dy as isize * n_cols as isize + dx as isize));
+        cells.push(cell(index));
     }
     cells.reverse();
     let clear = |cell: &Cell| distance.distance_cells(*cell);
     let narrowest = *cells
         .iter()
         .min_by(|a, b| clear(a).total_cmp(&clear(b)))
-        .unwrap_or(&from);
+        .unwrap_or(&cells[0]);
     Passage {
         narrowest,
         distance_cells: clear(&narrowest),

@@ -4,21 +4,19 @@ use super::JOINT_TOLERANCE;
 use super::report::{Violation, ViolationKind};
 use crate::geometry::{Pose2, angle_difference};
 use crate::path::{CurvePath, Direction};
-use crate::scenario::{GoalHeading, MotionMode, Request, StartHeading};
+use crate::scenario::{MotionMode, ReachedGoal, Request, StartHeading};
 use crate::vehicle::{Motion, Vehicle};
-use std::f64::consts::PI;
 
 /// What was found at both ends and about the gears.
 pub(super) struct Ends {
-    pub(super) goal_error_m: f64,
-    pub(super) goal_error_rad: f64,
+    pub(super) reached: ReachedGoal,
     pub(super) violations: Vec<Violation>,
 }
 
 pub(super) fn check(vehicle: &Vehicle, request: &Request, path: &CurvePath) -> Ends {
     let (start, end) = (path.start(), path.end());
     let (start_error_m, start_error_rad) = start_error(vehicle, request, start);
-    let (goal_error_m, goal_error_rad) = goal_error(vehicle, request, end);
+    let reached = request.reached_goal(vehicle.motion(), end);
     let at_start = Place {
         kind: ViolationKind::Start,
         s_m: 0.0,
@@ -33,14 +31,13 @@ pub(super) fn check(vehicle: &Vehicle, request: &Request, path: &CurvePath) -> E
     let violations = [
         at_start.miss("start", start_error_m, JOINT_TOLERANCE, "m"),
         at_start.miss("start heading", start_error_rad, JOINT_TOLERANCE, "rad"),
-        at_goal.miss("goal", goal_error_m, tolerance.xy_m, "m"),
-        at_goal.miss("goal heading", goal_error_rad, tolerance.yaw_rad, "rad"),
+        at_goal.miss("goal", reached.error_m, tolerance.xy_m, "m"),
+        at_goal.miss("goal heading", reached.error_rad, tolerance.yaw_rad, "rad"),
         forbidden_gear(request, path),
     ];
     let violations = violations.into_iter().flatten().collect();
     Ends {
-        goal_error_m,
-        goal_error_rad,
+        reached,
         violations,
     }
 }
@@ -78,17 +75,6 @@ fn start_error(vehicle: &Vehicle, request: &Request, start: Pose2) -> (f64, f64)
         start.position().distance(request.start.position()),
         error_rad,
     )
-}
-
-/// Distance and heading difference from the goal; a point has no heading.
-fn goal_error(vehicle: &Vehicle, request: &Request, end: Pose2) -> (f64, f64) {
-    let off = turn(end, request.goal);
-    let error_rad = match (vehicle.motion(), request.goal_heading) {
-        (Motion::Point, _) | (_, GoalHeading::Any) => 0.0,
-        (Motion::Car, GoalHeading::Exact) => off,
-        (Motion::Car, GoalHeading::Bidirectional) => off.min(PI - off),
-    };
-    (end.position().distance(request.goal.position()), error_rad)
 }
 
 fn turn(a: Pose2, b: Pose2) -> f64 {

@@ -1,7 +1,7 @@
 //! One verdict from all checks.
 
 use super::report::{Report, Violation, ViolationKind};
-use super::{CURVATURE_TOLERANCE, ends, shape, swept};
+use super::{CURVATURE_TOLERANCE, ends, shape, swept, via};
 use crate::collision::ObstacleMap;
 use crate::geometry::Pose2;
 use crate::path::CurvePath;
@@ -25,9 +25,13 @@ pub fn judge(
         return report;
     }
     let ends = ends::check(vehicle, request, path);
-    report.goal_error_m = ends.goal_error_m;
-    report.goal_error_rad = ends.goal_error_rad;
-    finish(report, ends.violations)
+    let passed = via::check(vehicle, request, path);
+    report.goal_index = Some(ends.reached.index);
+    report.goal_error_m = ends.reached.error_m;
+    report.goal_error_rad = ends.reached.error_rad;
+    report.via_s_m = passed.s_m;
+    let violations = ends.violations.into_iter().chain(passed.missed);
+    finish(report, violations.collect())
 }
 
 /// Judges a path by itself: swept collision, border, curvature and joints, with a relative slack
@@ -64,8 +68,10 @@ fn blank(obstacles: &ObstacleMap, vehicle: &Vehicle, path: &CurvePath) -> Report
         tightest: path.start(),
         tightest_s_m: 0.0,
         max_curvature_per_m: 0.0,
+        goal_index: None,
         goal_error_m: 0.0,
         goal_error_rad: 0.0,
+        via_s_m: Vec::new(),
         violations: Vec::new(),
         map_hash: hex(obstacles.hash()),
         vehicle_hash: hex(vehicle.hash()),

@@ -2,7 +2,8 @@
 //!
 //! A path is valid when its swept body keeps more than [`crate::collision::MIN_CLEARANCE_M`] from
 //! every lethal cell square and from the border, its curvature stays within the vehicle's limit,
-//! its segments join, and it goes from start to goal in the gears that the request allows. Only a
+//! its segments join, and it goes from start to a goal past all
+//! via points in the gears that the request allows. Only a
 //! valid path gets a [`Certificate`], and only the judge makes one.
 
 mod ends;
@@ -13,6 +14,7 @@ mod samples;
 mod shape;
 mod swept;
 mod tangents;
+mod via;
 
 pub use foreign::{FOREIGN_CURVATURE_SLACK, path_through_points, path_through_poses};
 pub use judge::{judge, judge_path};

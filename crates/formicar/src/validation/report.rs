@@ -19,10 +19,16 @@ pub struct Report {
     pub tightest_s_m: f64,
     /// Largest absolute curvature.
     pub max_curvature_per_m: f64,
-    /// Distance of the last pose from the goal; 0 where no goal was given.
+    /// Which goal the path ends at, or comes nearest to: its place among the request's goals,
+    /// the first is 0; null where no goal was given.
+    pub goal_index: Option<usize>,
+    /// Distance of the last pose from that goal; 0 where no goal was given.
     pub goal_error_m: f64,
     /// Heading difference of the last pose from the goal, as the goal-heading mode counts it.
     pub goal_error_rad: f64,
+    /// Arc length at which each via point is passed first, in their order, up to the first that
+    /// is missed.
+    pub via_s_m: Vec<f64>,
     /// What is wrong, in order of arc length.
     pub violations: Vec<Violation>,
     /// Hash of what the judge saw of the map, 32 hexadecimal digits.
@@ -67,6 +73,8 @@ pub enum ViolationKind {
     Start,
     /// The path does not end at the goal.
     Goal,
+    /// The path does not pass a via point after the one before it.
+    Via,
     /// A gear that the request forbids.
     Gear,
     /// A number that is none, or a negative length.

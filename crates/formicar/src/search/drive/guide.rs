@@ -20,12 +20,13 @@ pub struct Guide<'a> {
 /// Eight directions are up to 8.2 % longer than the straight way: cos(pi / 8).
 const OCTILE_SHRINK: f64 = 0.923_879_532_511_286_7;
 /// Up to how many goal poses curves are measured to; beyond, the goal field alone guides.
-const MAX_CURVE_GOALS: usize = 2;
+const MAX_CURVE_GOALS: usize = 4;
 /// Curves count within this many turning radii of the goal; farther off the field says more.
 const CURVE_REACH_RADII: f64 = 12.0;
 
 impl<'a> Guide<'a> {
-    /// The guide on obstacles grown by a radius; none where that covers an end.
+    /// The guide on obstacles grown by a radius; none where that covers all goals
+    /// or the start, or parts them.
     ///
     /// # Errors
     /// Deadline or cancel.

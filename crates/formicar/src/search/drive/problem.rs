@@ -4,6 +4,7 @@ use super::ground::Lattice;
 use super::{DriveGround, Guide, HybridAstarConfig};
 use crate::collision::{Drive, MIN_CLEARANCE_M};
 use crate::geometry::{Arc, Point2, Pose2, angle_difference};
+use crate::layers::SoftCosts;
 use crate::map::Cell;
 use crate::scenario::{GoalTolerance, MotionMode, Request};
 use crate::vehicle::{Alignment, Gears, PrimitiveSet};
@@ -56,6 +57,9 @@ pub struct DriveProblem<'a> {
     side: Side,
     starts: Vec<Pose2>,
     goals: Vec<Pose2>,
+    /// Number of places among the goals.
+    n_goals: usize,
+    soft_costs: Option<&'a SoftCosts>,
     /// Whether motions that the masks cannot clear are looked at exactly.
     is_exact: bool,
 }
@@ -82,8 +86,16 @@ impl<'a> DriveProblem<'a> {
             side: Side::Start,
             starts: free(request.start_poses()),
             goals: free(request.goal_poses()),
+            n_goals: 1 + request.other_goals.len(),
+            soft_costs: None,
             is_exact: false,
         }
+    }
+
+    /// The same query with a preference for some ground over other, on the frame of the map.
+    #[must_use]
+    pub fn with_soft_costs(self, soft_costs: Option<&'a SoftCosts>) -> Self {
+        Self { soft_costs, ..self }
     }
 
     /// The same query on a lattice of steps a quarter as long and headings four times as dense,
@@ -165,6 +177,14 @@ impl<'a> DriveProblem<'a> {
     /// Where to end.
     pub fn goals(&self) -> &[Pose2] {
         &self.goals
+    }
+
+    /// Number of goals, whatever headings they allow; of a search from them, one.
+    pub(super) fn n_goals(&self) -> usize {
+        match self.side {
+            Side::Start => self.n_goals,
+            Side::Goal => 1,
+        }
     }
 
     /// Which gears may be used.
@@ -287,12 +307,12 @@ impl<'a> DriveProblem<'a> {
         if self.hits(position, along) {
             return None;
         }
-        let nearness = self.nearness(position, along);
+        let dearness = self.dearness(position, along);
         Some(State {
             pose: Pose2::at(position, self.primitives().heading_rad(heading_index)),
             heading_index,
             arc,
-            cost: from.cost + self.cost(from.arc, arc, nearness),
+            cost: from.cost + self.cost(from.arc, arc, dearness),
             is_start: false,
         })
     }
@@ -324,25 +344,28 @@ impl<'a> DriveProblem<'a> {
         self.ground.obstacles().is_free(self.ground.body(), &drive)
     }
 
-    /// Cost of a motion after another, given how near obstacles are at its end.
-    pub(super) fn cost(&self, before: Arc, arc: Arc, nearness: f64) -> f64 {
-        let config = self.config;
+    /// Cost of a motion after another, given the factor of the ground at its end.
+    pub(super) fn cost(&self, before: Arc, arc: Arc, dearness: f64) -> f64 {
         let switches = before.signed_length_m * arc.signed_length_m < 0.0;
         let switching = if switches {
-            config.direction_switching_cost
+            self.config.direction_switching_cost
         } else {
             0.0
         };
         let factor = self.gear_factor(arc) * self.steering_factor(before, arc);
-        switching + arc.length_m() * factor * (1.0 + config.cost_penalty * nearness)
+        switching + arc.length_m() * factor * dearness
     }
 
-    /// How near obstacles are: 0 from the wished clearance on, 1 at contact.
-    pub(super) fn nearness(&self, position: Point2, along: Point2) -> f64 {
+    /// Factor of the ground on lengths: by how near obstacles are, and by the soft costs.
+    pub(super) fn dearness(&self, position: Point2, along: Point2) -> f64 {
         let wish_m = self.config.clearance_wish_m.max(2.0 * MIN_CLEARANCE_M);
         let (obstacles, body) = (self.ground.obstacles(), self.ground.body());
-        let clearance_m = obstacles.clearance_estimate_m(body, position, along);
-        (1.0 - clearance_m / wish_m).clamp(0.0, 1.0)
+        let clearance_m = obstacles.estimate_at(body, position, along, wish_m);
+        let nearness = (1.0 - clearance_m / wish_m).clamp(0.0, 1.0);
+        let soft = self
+            .soft_costs
+            .map_or(0.0, |costs| costs.price_at(position));
+        (1.0 + soft) * (1.0 + self.config.cost_penalty * nearness)
     }
 
     fn gear_factor(&self, arc: Arc) -> f64 {

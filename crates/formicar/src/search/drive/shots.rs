@@ -4,8 +4,10 @@ use super::{DriveProblem, State};
 use crate::geometry::{Arc, Curve, Pose2, dubins, reeds_shepp};
 use crate::scenario::MotionMode;
 
-/// How many words are tried per goal pose, shortest first.
+/// How many words are tried per goal, shortest first.
 const MAX_WORDS: usize = 6;
+/// Of how many goals the words are counted; of more, the nearest get most of them.
+const MAX_COUNTED_GOALS: usize = 4;
 
 impl DriveProblem<'_> {
     /// The cheapest free curve from a state to a goal pose among the shortest words, with its
@@ -17,7 +19,7 @@ impl DriveProblem<'_> {
             .flat_map(|&goal| self.words(state.pose, goal))
             .collect();
         curves.sort_by(|a, b| a.length_m().total_cmp(&b.length_m()));
-        curves.truncate(MAX_WORDS);
+        curves.truncate(MAX_WORDS * self.n_goals().min(MAX_COUNTED_GOALS));
         let mut priced: Vec<(f64, Curve)> = curves
             .into_iter()
             .filter_map(|curve| Some((self.price(state, &curve)?, curve)))
@@ -51,7 +53,7 @@ impl DriveProblem<'_> {
                 if self.hits(position, along) {
                     return None;
                 }
-                total += self.cost(before, piece, self.nearness(position, along));
+                total += self.cost(before, piece, self.dearness(position, along));
                 before = arc;
             }
         }

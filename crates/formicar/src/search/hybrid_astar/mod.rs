@@ -28,9 +28,11 @@ pub fn hybrid_astar(
     problem: &DriveProblem,
     limits: &mut Limits,
 ) -> Result<(Pose2, Vec<Arc>), Status> {
+    // Others may have used the same limits before.
+    let n_before = limits.n_steps();
     let most_steps = problem.config().max_iterations;
     for stage in Stage::ladder(problem) {
-        let left = most_steps.saturating_sub(limits.n_steps());
+        let left = most_steps.saturating_sub(limits.n_steps() - n_before);
         if left == 0 {
             return Err(Status::BudgetExhausted);
         }
@@ -44,7 +46,7 @@ pub fn hybrid_astar(
             Err(status) => return Err(status),
         }
     }
-    if limits.n_steps() >= most_steps {
+    if limits.n_steps() - n_before >= most_steps {
         Err(Status::BudgetExhausted)
     } else {
         Err(Status::NoPath)

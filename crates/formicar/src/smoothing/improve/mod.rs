@@ -105,7 +105,7 @@ impl<'a> Improver<'a> {
         (start, arcs): (Pose2, &[Arc]),
         seed: Seed,
         limits: &mut Limits,
-        on_improved: &mut dyn FnMut(&[Arc]),
+        on_improved: &mut dyn FnMut(&[Arc], &mut Limits),
     ) -> Improved {
         let best = DriveMeter::merged(arcs);
         let goal = best.iter().fold(start, |pose, arc| arc.end_from(pose));
@@ -151,7 +151,7 @@ struct Run<'a, 'b, 'c> {
     seed: Seed,
     n_tries: u64,
     limits: &'a mut Limits<'b>,
-    on_improved: &'c mut dyn FnMut(&[Arc]),
+    on_improved: &'c mut dyn FnMut(&[Arc], &mut Limits),
 }
 
 impl Run<'_, '_, '_> {
@@ -261,7 +261,7 @@ impl Run<'_, '_, '_> {
         if self.holds(&arcs) {
             self.best_m = self.chain.cost_m;
             self.best = arcs;
-            (self.on_improved)(&self.best);
+            (self.on_improved)(&self.best, self.limits);
         } else {
             self.chain = Chain::new(self.task, self.start, &self.best);
         }

@@ -1,0 +1,181 @@
+//! Requests as users make them: several goals, via points, soft costs; by flags and by lines.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail where it likes")]
+
+mod common;
+
+use common::{Room, formicar_in};
+use serde_json::{Value, json};
+
+/// Plans on the near side of the room's door, with more flags.
+fn near(room: &Room, more: &[&str]) -> common::Run {
+    let start = ["plan", "--map", "room.yaml", "--start", "2,2,0"];
+    room.run(&[&start[..], more].concat())
+}
+
+#[test]
+fn the_answer_says_which_goal_was_reached() {
+    let room = Room::new();
+    let goals = ["--goal", "10,2,-90deg", "--goal", "4.5,2,0"];
+    let run = near(&room, &goals);
+    assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
+    assert!(run.stdout.contains("at goal 2 of 2"), "{}", run.stdout);
+    let picture = ["--json", "--out", "path.json", "--picture", "path.svg"];
+    let answer = near(&room, &[&goals[..], &picture].concat()).json();
+    assert_eq!(answer["certificate"]["goal_index"], 1);
+    let request = &answer["provenance"]["request"];
+    assert_eq!(request["goal"], Value::Null);
+    assert_eq!(request["goals"][1], json!([4.5, 2.0, 0.0]));
+    assert!(room.read("path.svg").contains("<svg"));
+    let checked = room.run(&["check", "path.json", "--map", "room.yaml"]);
+    assert_eq!(checked.code, 0, "{}{}", checked.stdout, checked.stderr);
+}
+
+#[test]
+fn via_points_are_certified_and_judged_again_by_check() {
+    let room = Room::new();
+    let via = [
+        "--via",
+        "4.5,5,90deg",
+        "--via",
+        "3,6.5",
+        "--goal",
+        "2,4,180deg",
+    ];
+    let out = ["--out", "path.json", "--picture", "path.svg", "--json"];
+    let run = near(&room, &[&via[..], &out].concat());
+    assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
+    let answer = run.json();
+    let passed = answer["certificate"]["via_s_m"].as_array().unwrap();
+    assert_eq!(passed.len(), 2);
+    let record = &answer["provenance"]["request"]["via"];
+    let tolerance = json!({"xy": 0.1, "yaw": 0.1});
+    assert_eq!(record[1], json!({"at": [3.0, 6.5], "tolerance": tolerance}));
+    assert!(room.read("path.svg").contains("via 2"));
+    let check = ["check", "path.json", "--map", "room.yaml"];
+    assert_eq!(room.run(&check).code, 0);
+    // The same path, asked to pass its via points the other way round.
+    let mut turned = answer;
+    turned["provenance"]["request"]["via"]
+        .as_array_mut()
+        .unwrap()
+        .reverse();
+    room.write("path.json", turned.to_string());
+    let run = room.run(&check);
+    assert_eq!(run.code, 3, "{}", run.stdout);
+    assert!(
+        run.stdout
+            .contains("via point 2 at (4.500, 5.000) after via point 1"),
+        "{}",
+        run.stdout
+    );
+}
+
+#[test]
+fn lines_name_goals_and_via_points_too() {
+    let room = Room::new();
+    let args = ["plan", "--map", "room.yaml", "--start", "2,2,0", "--stdin"];
+    let lines = [
+        r#"{"id": 1, "goals": [[10, 2, -1.5708], [4.5, 2, 0]]}"#,
+        r#"{"id": 2, "goal": [4.5, 2, 0], "via": [{"at": [3, 6]}, {"at": [2, 4], "heading": -1.57, "tolerance": {"xy": 0.3, "yaw": 0.3}}]}"#,
+        r#"{"id": 3, "goal": [4.5, 2, 0], "goals": [[4.5, 2, 0]]}"#,
+        r#"{"id": 4, "goal": [4.5, 2, 0], "via": [{"at": [3, 60]}]}"#,
+        r#"{"id": 5, "goal": [4.5, 2, 0], "via": [{"where": [3, 6]}]}"#,
+    ];
+    let run = formicar_in(room.folder.path(), &args, &lines.join("\n"));
+    let answers: Vec<Value> = run
+        .stdout
+        .lines()
+        .map(|l| serde_json::from_str(l).unwrap())
+        .collect();
+    let statuses: Vec<_> = answers
+        .iter()
+        .map(|a| a["status"].as_str().unwrap())
+        .collect();
+    let invalid = "invalid_request";
+    assert_eq!(statuses, ["found", "found", invalid, invalid, invalid]);
+    assert_eq!(answers[0]["certificate"]["goal_index"], 1);
+    assert_eq!(
+        answers[1]["certificate"]["via_s_m"]
+            .as_array()
+            .unwrap()
+            .len(),
+        2
+    );
+    let reason = |i: usize| answers[i]["reason"].as_str().unwrap();
+    assert!(reason(2).contains("goal and goals"), "{}", reason(2));
+    assert!(
+        reason(3).contains("via point 1 (3.000, 60.000)"),
+        "{}",
+        reason(3)
+    );
+    assert!(reason(4).contains("where"), "{}", reason(4));
+}
+
+#[test]
+fn soft_costs_come_from_the_map_or_from_a_file() {
+    let room = Room::new();
+    // A graded block in the way, on a map of its own; 255 is free, 128 half unwanted.
+    let mut image = b"P5\n60 40\n255\n".to_vec();
+    let unwanted = |col: usize, row: usize| (13..18).contains(&col) && row < 25;
+    for row in (0..40).rev() {
+        image.extend((0..60).map(|col| if unwanted(col, row) { 90 } else { 254 }));
+    }
+    room.write("soft.pgm", image);
+    let yaml = room.read("room.yaml").replace("room.pgm", "soft.pgm");
+    room.write(
+        "soft.yaml",
+        format!("{yaml}mode: scale\n").replace("0.65", "0.99"),
+    );
+    let goal = ["--goal", "4.5,2,0", "--json"];
+    let straight = near(&room, &goal).json();
+    let soft = ["--soft-costs", "soft.yaml", "--soft-weight", "100"];
+    let around = near(&room, &[&goal[..], &soft].concat()).json();
+    let length = |answer: &Value| answer["metrics"]["length_m"].as_f64().unwrap();
+    assert!(length(&around) > length(&straight) + 0.5);
+    let record = &around["provenance"]["map"]["soft_costs"];
+    assert_eq!(record, &json!({"name": "soft.yaml", "weight": 100.0}));
+    assert!(straight["provenance"]["map"].get("soft_costs").is_none());
+    // A map without graded cells has no preference.
+    let plain = near(&room, &[&goal[..], &["--soft-costs", "map"]].concat()).json();
+    assert_eq!(plain["path"], straight["path"]);
+}
+
+#[test]
+fn bad_flags_are_refused_with_value_and_hint() {
+    let room = Room::new();
+    let refused = |more: &[&str], words: &[&str]| {
+        let goal = ["--goal", "4.5,2,0"];
+        near(&room, &[&goal[..], more].concat()).assert_refused(words);
+    };
+    refused(&["--via", "1"], &["--via", "X,Y"]);
+    refused(&["--via", "1,nan"], &["--via", "nan"]);
+    refused(&["--via", "1,2,3,4"], &["--via", "4 numbers"]);
+    refused(
+        &["--via", "6.1,2"],
+        &["via point 1 (6.100, 2.000)", "nearest free pose"],
+    );
+    refused(&["--via", "-5,2"], &["via point 1", "outside the map"]);
+    refused(&["--via-tolerance", "0.1,0.1"], &["--via"]);
+    refused(&["--via", "3,3", "--via-tolerance", "0,1"], &["above 0"]);
+    refused(&["--goal", "6.1,2"], &["--goal", "X,Y,HEADING"]);
+    refused(
+        &["--goal", "50,2,0"],
+        &["goal (50.000, 2.000)", "outside the map"],
+    );
+    refused(
+        &["--soft-costs", "gone.yaml"],
+        &["--soft-costs", "gone.yaml"],
+    );
+    refused(&["--soft-weight", "2"], &["--soft-costs"]);
+    refused(
+        &["--soft-costs", "map", "--soft-weight", "-1"],
+        &["at least 0"],
+    );
+    refused(
+        &["--soft-costs", "map", "--soft-weight", "1e6"],
+        &["1000000", "0 to 1000"],
+    );
+    let other = ["--soft-costs", "map", "--planner", "astar"];
+    refused(&other, &["astar does not weigh", "hybrid-astar"]);
+}
