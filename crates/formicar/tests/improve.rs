@@ -13,7 +13,7 @@ use formicar::objective::{DriveCost, DriveMeter, SoftCost};
 use formicar::path::{CurvePath, Direction};
 use formicar::progress::{Limits, Status};
 use formicar::scenario::{MotionMode, Request};
-use formicar::search::{HybridAstarConfig, HybridProblem, hybrid_astar};
+use formicar::search::{DriveGround, DriveProblem, HybridAstarConfig, hybrid_astar};
 use formicar::smoothing::{ImproveConfig, ImproveProblem, Improved, Improver};
 use formicar::validation::judge;
 use formicar::vehicle::Vehicle;
@@ -94,7 +94,7 @@ impl Case {
         let mut nobody = ();
         let mut limits = Limits::new(&mut nobody, budget, None);
         let improver = Improver::new(&problem, config);
-        let mut tell = |arcs: &[Arc]| {
+        let mut tell = |arcs: &[Arc], _: &mut Limits| {
             self.assert_certified(arcs);
             let cost_m = meter.path_m(self.start, arcs);
             assert!(cost_m < last_m, "{cost_m} after {last_m}");
@@ -145,7 +145,9 @@ fn random_case(vehicle: Vehicle, motion: MotionMode, seed: u64) -> Option<Case> 
         max_iterations: 20_000,
         ..HybridAstarConfig::default()
     };
-    let problem = HybridProblem::new(&obstacles, &vehicle, &config, &request).unwrap();
+    let shared = std::sync::Arc::new(obstacles.clone());
+    let ground = DriveGround::new(shared, &vehicle, &config).unwrap();
+    let problem = DriveProblem::new(&ground, &config, &request);
     let mut nobody = ();
     let found = hybrid_astar(&problem, &mut Limits::new(&mut nobody, None, None));
     let (start, arcs) = found.ok()?;

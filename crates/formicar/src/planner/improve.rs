@@ -1,15 +1,23 @@
 //! The flagship: a race for a first path, then improvement until it ceases to gain.
 
-use super::race::{Driven, first_path};
+use super::race::{Driven, Rules, Won, WonStage, race};
 use super::run::{Ended, Found};
 use super::{PlanError, Planner};
+use crate::colony::drive::DriveColony;
 use crate::geometry::{Arc, Point2, Pose2};
 use crate::numeric::Seed;
 use crate::progress::{Event, Limits, Status};
 use crate::scenario::Request;
-use crate::search::DriveProblem;
-use crate::smoothing::{ImproveProblem, Improved, Improver};
+use crate::search::{DriveProblem, Side};
+use crate::smoothing::{ImproveConfig, ImproveProblem, Improver};
 use crate::validation::judge;
+
+/// Another path is improved where it is at most so many times as long as the best one.
+const WORTH_RATIO: f64 = 1.3;
+/// Tries that the way of an ant is given at first,
+const GLANCE_TRIES: u64 = 300;
+/// and how much dearer than the best path it may then be to be improved further.
+const PROMISING_RATIO: f64 = 1.01;
 
 impl Planner {
     /// Finds a path and improves it.
@@ -22,29 +30,34 @@ impl Planner {
         let ground = self.drive_ground()?;
         let problem = DriveProblem::new(&ground, &self.config.hybrid_astar, request);
         limits.tell(&Event::SearchStarted);
-        let first = match first_path(&problem, &self.config.drive, seed, limits) {
-            Ok(first) => first,
+        let rules = Rules {
+            config: &self.config.drive,
+            seed,
+            n_threads: self.n_threads,
+        };
+        let won = match race(&problem, &rules, limits) {
+            Ok(won) => won,
             Err(status) => return Ok(Err(status.into())),
         };
-        self.tell_if_certified(request, (first.0, &first.1), limits);
-        let improved = self.improve(request, &problem, &first, seed, limits);
-        if improved.ended == Some(Status::Cancelled) {
+        let (best, ended) = self.improve(request, won, &problem, &rules, limits);
+        if ended == Err(Status::Cancelled) {
             return Ok(Err(Status::Cancelled.into()));
         }
-        let mut found = self.driven(request, first.0, &improved.arcs);
-        found.cut_by = improved.ended;
+        let mut found = self.driven(request, best.0, &best.1);
+        found.cut_by = ended.err();
         Ok(Ok(found))
     }
 
-    /// Improves a path; a budget or deadline that ends it leaves what is reached.
+    /// Improves the first path, and others that hybrid A* and ants still find. What is best, and
+    /// what ended it before it ceased to gain.
     fn improve(
         &self,
         request: &Request,
+        won: Won,
         problem: &DriveProblem,
-        (start, arcs): &Driven,
-        seed: Seed,
+        rules: &Rules,
         limits: &mut Limits,
-    ) -> Improved {
+    ) -> (Driven, Result<(), Status>) {
         let soft = self.soft_costs.as_deref();
         let price = |position: Point2| soft.map_or(0.0, |costs| costs.price_at(position));
         let task = ImproveProblem {
@@ -55,26 +68,153 @@ impl Planner {
             cost: &self.config.cost,
             soft: soft.is_some().then_some(&price),
         };
-        Improver::new(&task, &self.config.improve).improve(
-            (*start, arcs),
-            seed,
-            limits,
-            &mut |arcs, limits| self.tell_if_certified(request, (*start, arcs), limits),
-        )
+        let glance = ImproveConfig {
+            max_tries: self.config.improve.max_tries.min(GLANCE_TRIES),
+            ..self.config.improve.clone()
+        };
+        let mut best = Best {
+            planner: self,
+            request,
+            improver: Improver::new(&task, &self.config.improve),
+            glance: Improver::new(&task, &glance),
+            path: (won.path.0, Vec::new()),
+            cost_m: f64::INFINITY,
+            seed: rules.seed,
+            n_tried: 0,
+        };
+        best.tell_if_certified(won.path.0, &won.path.1, limits);
+        best.path = won.path.clone();
+        let ended = best.run(won, rules, limits);
+        (best.path, ended)
+    }
+}
+
+/// The best path so far, and what makes paths better.
+struct Best<'a> {
+    planner: &'a Planner,
+    request: &'a Request,
+    improver: Improver<'a>,
+    /// One that tells soon whether a path is worth more.
+    glance: Improver<'a>,
+    path: Driven,
+    cost_m: f64,
+    seed: Seed,
+    n_tried: u64,
+}
+
+impl Best<'_> {
+    fn run(&mut self, won: Won, rules: &Rules, limits: &mut Limits) -> Result<(), Status> {
+        self.offer(won.path, limits)?;
+        let Some(WonStage {
+            problem,
+            mut guide,
+            hybrid,
+        }) = won.stage
+        else {
+            return Ok(());
+        };
+        if let Some(mut hybrid) = hybrid {
+            match hybrid.run(&mut guide, rules.config.second_steps, limits) {
+                Ok(Some(path)) => self.offer(path, limits)?,
+                Ok(None) | Err(Status::NoPath) => {}
+                Err(status) => return Err(status),
+            }
+        }
+        if rules.config.n_stalled == 0 || rules.config.n_ants == 0 || problem.side() == Side::Goal {
+            return Ok(());
+        }
+        let ants = (rules.seed, rules.n_threads);
+        let (ended, _) = DriveColony::with(&problem, rules.config, ants, guide, |colony| {
+            self.send_ants(colony, rules.config.n_stalled, limits)
+        });
+        ended
     }
 
-    /// Tells the observer of a path that the judge certifies.
-    fn tell_if_certified(
-        &self,
-        request: &Request,
-        (start, arcs): (Pose2, &[Arc]),
+    /// Sends focused ants until so many generations gained nothing.
+    fn send_ants(
+        &mut self,
+        colony: &mut DriveColony,
+        n_stalled: u32,
         limits: &mut Limits,
-    ) {
-        let path = self.driven(request, start, arcs).path;
-        let report = judge(&self.obstacles, &self.vehicle, request, &path);
-        if report.certify().is_ok() {
-            let (length_m, n_steps) = (path.length_m(), limits.n_steps());
-            limits.tell(&Event::Improved { length_m, n_steps });
+    ) -> Result<(), Status> {
+        let mut n_idle = 0;
+        while n_idle < n_stalled {
+            let before_m = self.cost_m;
+            let (start, arcs) = self.path.clone();
+            for way in colony.focus((start, &arcs), self.seed, limits)? {
+                self.glance_at((start, way), limits)?;
+            }
+            n_idle = if self.cost_m < before_m * (1.0 - self.planner.config.improve.stall_gain) {
+                0
+            } else {
+                n_idle + 1
+            };
         }
+        Ok(())
+    }
+
+    /// Improves a path, and keeps it where it is the cheapest.
+    fn offer(&mut self, (start, arcs): Driven, limits: &mut Limits) -> Result<(), Status> {
+        let length_m = |arcs: &[Arc]| arcs.iter().map(|arc| arc.length_m()).sum::<f64>();
+        if self.cost_m.is_finite() && length_m(&arcs) > WORTH_RATIO * length_m(&self.path.1) {
+            return Ok(());
+        }
+        let seed = self.next_seed();
+        let is_first = self.cost_m.is_infinite();
+        let improver = &self.improver;
+        let (planner, request) = (self.planner, self.request);
+        let mut tell = |arcs: &[Arc], limits: &mut Limits| {
+            if is_first {
+                tell_if_certified(planner, request, (start, arcs), limits);
+            }
+        };
+        let improved = improver.improve((start, &arcs), seed, limits, &mut tell);
+        if improved.cost_m < self.cost_m {
+            self.cost_m = improved.cost_m;
+            self.path = (start, improved.arcs);
+            if !is_first {
+                self.tell_if_certified(start, &self.path.1, limits);
+            }
+        }
+        improved.ended.map_or(Ok(()), Err)
+    }
+
+    /// Improves the way of an ant a little, and then as any path where it comes near the best.
+    fn glance_at(&mut self, (start, arcs): Driven, limits: &mut Limits) -> Result<(), Status> {
+        let seed = self.next_seed();
+        let seen = self
+            .glance
+            .improve((start, &arcs), seed, limits, &mut |_, _| {});
+        match seen.ended {
+            Some(status) => Err(status),
+            None if seen.cost_m < PROMISING_RATIO * self.cost_m => {
+                self.offer((start, seen.arcs), limits)
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn next_seed(&mut self) -> Seed {
+        self.n_tried += 1;
+        Seed(self.seed.stream([self.n_tried, 1]).next_u64())
+    }
+
+    fn tell_if_certified(&self, start: Pose2, arcs: &[Arc], limits: &mut Limits) {
+        tell_if_certified(self.planner, self.request, (start, arcs), limits);
+    }
+}
+
+/// Tells the observer of a path that the judge certifies.
+fn tell_if_certified(
+    planner: &Planner,
+    request: &Request,
+    (start, arcs): (Pose2, &[Arc]),
+    limits: &mut Limits,
+) {
+    let path = planner.driven(request, start, arcs).path;
+    let report = judge(&planner.obstacles, &planner.vehicle, request, &path);
+    if report.certify().is_ok() {
+        let (length_m, n_steps) = (path.length_m(), limits.n_steps());
+        limits.tell(&Event::Improved { length_m, n_steps });
     }
 }

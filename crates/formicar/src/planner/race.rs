@@ -17,18 +17,40 @@ const N_GENERATIONS: u32 = 60;
 /// A start pose and the arcs from there, in grid coordinates.
 pub(super) type Driven = (Pose2, Vec<Arc>);
 
+/// How a race is run.
+pub(super) struct Rules<'a> {
+    pub(super) config: &'a DriveConfig,
+    pub(super) seed: Seed,
+    pub(super) n_threads: usize,
+}
+
+/// A race that has been won.
+pub(super) struct Won<'a> {
+    /// The first path.
+    pub(super) path: Driven,
+    /// Where it was won; nowhere where a single curve was free.
+    pub(super) stage: Option<WonStage<'a>>,
+}
+
+/// A stage as it stands when the race is won.
+pub(super) struct WonStage<'a> {
+    pub(super) problem: DriveProblem<'a>,
+    pub(super) guide: Guide<'a>,
+    /// Hybrid A*, where ants were faster.
+    pub(super) hybrid: Option<HybridSearch<'a>>,
+}
+
 /// Lets both run, stage by stage, until one has a path.
 ///
 /// # Errors
 /// No path on any lattice; budget, deadline or cancel.
-pub(super) fn first_path(
-    problem: &DriveProblem,
-    config: &DriveConfig,
-    seed: Seed,
+pub(super) fn race<'a>(
+    problem: &DriveProblem<'a>,
+    rules: &Rules,
     limits: &mut Limits,
-) -> Result<Driven, Status> {
+) -> Result<Won<'a>, Status> {
     if let Some(path) = straight_shot(problem) {
-        return Ok(path);
+        return Ok(Won { path, stage: None });
     }
     let n_before = limits.n_steps();
     for (place, stage) in Stage::ladder(problem).enumerate() {
@@ -37,15 +59,21 @@ pub(super) fn first_path(
         if n_left == 0 {
             return Err(Status::BudgetExhausted);
         }
+        let rules = Rules {
+            seed: Seed(rules.seed.stream([place as u64, 0]).next_u64()),
+            ..*rules
+        };
         let stage = Stage {
             patience_steps: stage.patience_steps.min(n_left),
             ..stage
         };
-        let seed = Seed(seed.stream([place as u64, 0]).next_u64());
-        let ants = (place < N_ANT_STAGES && config.n_ants > 0)
-            .then(|| DriveColony::new(&stage.problem, config, seed));
-        if let Some(path) = run(&stage, ants, limits)? {
-            return Ok(path);
+        let n_generations = if place < N_ANT_STAGES && rules.config.n_ants > 0 {
+            N_GENERATIONS
+        } else {
+            0
+        };
+        if let Some(won) = run(stage, n_generations, &rules, limits)? {
+            return Ok(won);
         }
     }
     Err(Status::NoPath)
@@ -63,35 +91,60 @@ fn straight_shot(problem: &DriveProblem) -> Option<Driven> {
 }
 
 /// One stage of the race.
-fn run(
-    stage: &Stage,
-    mut ants: Option<DriveColony>,
+fn run<'a>(
+    stage: Stage<'a>,
+    n_generations: u32,
+    rules: &Rules,
     limits: &mut Limits,
-) -> Result<Option<Driven>, Status> {
-    let Some(mut guide) = Guide::new(&stage.problem, stage.inflation, limits)? else {
+) -> Result<Option<Won<'a>>, Status> {
+    let problem = stage.problem;
+    let Some(mut guide) = Guide::new(&problem, stage.inflation, limits)? else {
         return Ok(None);
     };
-    let mut hybrid = HybridSearch::new(&stage.problem, &mut guide, limits)?;
-    let (mut n_left, mut turn) = (stage.patience_steps, FIRST_TURN_STEPS);
-    let mut n_generations = 0;
-    while n_left > 0 {
-        if let Some(ants) = ants.as_mut()
-            && n_generations < N_GENERATIONS
-        {
-            n_generations += 1;
-            if let Some(path) = ants.send(&mut guide, limits)? {
-                return Ok(Some(path));
+    let mut hybrid = HybridSearch::new(&problem, &mut guide, limits)?;
+    let threads = if n_generations == 0 {
+        1
+    } else {
+        rules.n_threads
+    };
+    let ants = (rules.seed, threads);
+    let (winner, guide) = DriveColony::with(&problem, rules.config, ants, guide, |colony| {
+        let (mut n_left, mut turn) = (stage.patience_steps, FIRST_TURN_STEPS);
+        for generation in 0.. {
+            if generation < n_generations
+                && let Some(path) = colony.look_for_a_way(limits)?
+            {
+                return Ok(Some((path, true)));
+            }
+            let n_steps = turn.min(n_left);
+            if let Some(path) = hybrid.run(colony.guide(), n_steps, limits)? {
+                return Ok(Some((path, false)));
+            }
+            n_left -= n_steps;
+            turn = turn.saturating_mul(5) / 4;
+            if n_left == 0 {
+                break;
             }
         }
-        let n_steps = turn.min(n_left);
-        match hybrid.run(&mut guide, n_steps, limits) {
-            Ok(Some(path)) => return Ok(Some(path)),
-            Ok(None) => {}
-            Err(Status::NoPath) => return Ok(None),
-            Err(status) => return Err(status),
-        }
-        n_left -= n_steps;
-        turn = turn.saturating_mul(5) / 4;
-    }
-    Ok(None)
+        Ok(None)
+    });
+    let (path, is_by_ants) = match winner {
+        Ok(Some(winner)) => winner,
+        Ok(None) | Err(Status::NoPath) => return Ok(None),
+        Err(status) => return Err(status),
+    };
+    // Hybrid A* turns its own paths; those of ants run as their search does.
+    let path = if is_by_ants {
+        problem.in_driving_order(path)
+    } else {
+        path
+    };
+    Ok(Some(Won {
+        path,
+        stage: Some(WonStage {
+            problem,
+            guide,
+            hybrid: is_by_ants.then_some(hybrid),
+        }),
+    }))
 }

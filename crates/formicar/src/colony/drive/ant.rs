@@ -1,6 +1,7 @@
 //! One ant that drives from the start towards the goal.
 
 use super::DriveConfig;
+use super::walk::Ground;
 use crate::geometry::{Arc, Point2, Pose2};
 use crate::numeric::RandomStream;
 use crate::search::{DriveProblem, Guide, State};
@@ -8,15 +9,15 @@ use std::collections::HashSet;
 
 /// Where an ant drove.
 #[derive(Clone, Debug, Default)]
-pub struct Way {
+pub(super) struct Way {
     /// Where it began.
-    pub start: Pose2,
+    pub(super) start: Pose2,
     /// What it drove; to the goal pose where it arrived.
-    pub arcs: Vec<Arc>,
+    pub(super) arcs: Vec<Arc>,
     /// Where it died, if it did.
-    pub died_at: Option<Point2>,
+    pub(super) died_at: Option<Point2>,
     /// Decisions that it took.
-    pub n_steps: u64,
+    pub(super) n_steps: u64,
 }
 
 /// Ants look for a shot this often near the goal, ever more seldom farther off: once in so many
@@ -59,14 +60,15 @@ impl<'a> Ant<'a> {
         }
     }
 
-    /// Drives once. A patient ant always takes what looks best.
+    /// Drives once. A greedy ant always takes what looks best.
     pub(super) fn drive(
         &mut self,
-        guide: &Guide,
+        ground: &Ground,
         start: State,
         draw: &mut RandomStream,
         is_greedy: bool,
     ) -> Way {
+        let guide = &ground.guide;
         self.states.clear();
         self.visited.clear();
         self.states.push(start);
@@ -84,7 +86,7 @@ impl<'a> Ant<'a> {
             {
                 return self.arrived(&shot, n_steps);
             }
-            self.look_around(guide, &here);
+            self.look_around(ground, &here);
             if let Some(state) = self.choose(&here, draw, is_greedy) {
                 self.visited.insert(self.problem.key(&state));
                 self.states.push(state);
@@ -124,7 +126,7 @@ impl<'a> Ant<'a> {
 
     /// Finds out what leads on from a state, and what a way through each of it may cost: its own
     /// cost and the way along the field from the best place one motion farther on.
-    fn look_around(&mut self, guide: &Guide, here: &State) {
+    fn look_around(&mut self, ground: &Ground, here: &State) {
         let (problem, visited) = (&self.problem, &self.visited);
         let candidates = &mut self.candidates;
         candidates.clear();
@@ -132,7 +134,7 @@ impl<'a> Ant<'a> {
             if visited.contains(&problem.key(&state)) {
                 return;
             }
-            if let Some(ahead) = problem.look_ahead(guide, &state) {
+            if let Some(ahead) = problem.look_ahead(&ground.guide, &state) {
                 candidates.push(Candidate {
                     step,
                     state,
@@ -145,8 +147,11 @@ impl<'a> Ant<'a> {
             .iter()
             .fold(f64::INFINITY, |least, c| c.cost.min(least));
         let scale = self.config.beta / problem.step_m();
+        let alpha = self.config.trails.alpha;
         for candidate in candidates {
-            candidate.weight = (-scale * (candidate.cost - least)).exp();
+            let Candidate { state, cost, .. } = candidate;
+            let tau = ground.trails.at(state.pose, state.arc);
+            candidate.weight = (1.0 + alpha * tau) * (-scale * (*cost - least)).exp();
         }
     }
 

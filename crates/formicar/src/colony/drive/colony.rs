@@ -1,74 +1,157 @@
-//! Generations of ants that drive, until one arrives.
+//! Generations of ants that drive: until one arrives, or from a way that is known.
 
-use super::ant::{Ant, Way};
+use super::trails::Trails;
+use super::walk::{Ground, Walker, Ways};
 use super::{DriveConfig, repair};
+use crate::colony::crew::{Crew, with_crew};
 use crate::geometry::{Arc, Pose2};
 use crate::numeric::Seed;
 use crate::progress::{Limits, Status};
-use crate::search::{DriveProblem, Guide};
+use crate::search::{DriveProblem, Guide, State};
+use std::sync::Arc as Shared;
 
-/// Ants that look for a first way, a generation at a time.
-pub struct DriveColony<'a> {
+/// Cells of the map that a bin of pheromone is wide.
+const BIN_CELLS: f64 = 4.0;
+
+/// Ants that drive, a generation at a time.
+pub struct DriveColony<'a, 'c> {
     problem: DriveProblem<'a>,
     config: DriveConfig,
-    /// One that drives forward until its last curve, and one that uses both gears.
-    ants: [Ant<'a>; 2],
-    seed: Seed,
-    generation: u64,
+    crew: &'c mut Crew<Walker<'a>>,
+    ground: Shared<Ground<'a>>,
+    ways: Ways,
+    generation: u32,
 }
 
-impl<'a> DriveColony<'a> {
-    /// A colony about to begin.
-    pub fn new(problem: &DriveProblem<'a>, config: &DriveConfig, seed: Seed) -> Self {
-        Self {
-            ants: [
-                Ant::new(&problem.forward_on_the_way(), config),
-                Ant::new(problem, config),
-            ],
-            problem: problem.clone(),
-            config: config.clone(),
-            seed,
-            generation: 0,
-        }
+/// A start pose and the arcs from there.
+type Driven = (Pose2, Vec<Arc>);
+
+impl<'a> DriveColony<'a, '_> {
+    /// Runs `body` with a colony on at most so many threads, and hands the guide back.
+    pub fn with<R>(
+        problem: &DriveProblem<'a>,
+        config: &DriveConfig,
+        (seed, n_threads): (Seed, usize),
+        guide: Guide<'a>,
+        body: impl FnOnce(&mut DriveColony<'a, '_>) -> R,
+    ) -> (R, Guide<'a>) {
+        let bin_m = BIN_CELLS * problem.ground().obstacles().frame().resolution_m();
+        let ground = Shared::new(Ground {
+            guide,
+            trails: Trails::new(bin_m),
+            starts: problem.start_states().collect(),
+            first_wins: true,
+        });
+        let walker = || Walker::new(problem, config, seed);
+        let (result, ground) = with_crew(walker, config.n_ants.max(1), n_threads, |crew| {
+            let mut colony = DriveColony {
+                problem: problem.clone(),
+                config: config.clone(),
+                crew,
+                ground,
+                ways: Ways::default(),
+                generation: 0,
+            };
+            (body(&mut colony), colony.ground)
+        });
+        let ground = Shared::into_inner(ground).expect("helpers have ended");
+        (result, ground.guide)
     }
 
-    /// Sends a generation. The cheapest way that arrived, from the request's start, or none; then
-    /// the guide has learned where ants died. A step of the limits is a decision of an ant.
+    /// The guide, between generations.
+    pub fn guide(&mut self) -> &mut Guide<'a> {
+        &mut self.ground_mut().guide
+    }
+
+    fn ground_mut(&mut self) -> &mut Ground<'a> {
+        Shared::get_mut(&mut self.ground).expect("helpers let go of what they read")
+    }
+
+    /// Sends a generation to look for a first way: that of the first ant that arrived, or none;
+    /// then the guide has learned where ants died. A step of the limits is a decision of an ant.
     ///
     /// # Errors
     /// Budget, deadline or cancel.
-    pub fn send(
-        &mut self,
-        guide: &mut Guide,
-        limits: &mut Limits,
-    ) -> Result<Option<(Pose2, Vec<Arc>)>, Status> {
-        let starts: Vec<_> = self.problem.start_states().collect();
+    pub fn look_for_a_way(&mut self, limits: &mut Limits) -> Result<Option<Driven>, Status> {
+        self.walk();
         let mut deaths = Vec::new();
-        for index in 0..self.config.n_ants {
-            let mut draw = self.seed.stream([self.generation, u64::from(index)]);
-            let start = starts[index as usize / 2 % starts.len()];
-            let is_greedy = index < 2;
-            let way: Way = self.ants[index as usize % 2].drive(guide, start, &mut draw, is_greedy);
+        for way in std::mem::take(&mut self.ways.0) {
             limits.look()?;
             if limits.take(way.n_steps) < way.n_steps {
                 return Err(Status::BudgetExhausted);
             }
             match way.died_at {
-                None => {
-                    let path = (way.start, way.arcs);
-                    return Ok(Some(self.problem.in_driving_order(path)));
-                }
+                None => return Ok(Some((way.start, way.arcs))),
                 Some(place) => deaths.push(place),
             }
         }
-        self.generation += 1;
-        guide.repair(
-            |resolution_m, size| {
-                let radius_m = self.problem.ground().radius_m();
-                repair::tolls(&self.config.repair, &deaths, radius_m, resolution_m, size)
-            },
+        let (radius_m, repair) = (self.problem.ground().radius_m(), self.config.repair.clone());
+        self.guide().repair(
+            |resolution_m, size| repair::tolls(&repair, &deaths, radius_m, resolution_m, size),
             limits,
         )?;
         Ok(None)
     }
+
+    /// Sends a generation of focused ants: each leaves a known way at a place drawn at random and
+    /// drives to the goal on its own, drawn by pheromone. All ways that arrived, from the start
+    /// on, in the ants' order.
+    ///
+    /// # Errors
+    /// Budget, deadline or cancel.
+    pub fn focus(
+        &mut self,
+        (start, arcs): (Pose2, &[Arc]),
+        seed: Seed,
+        limits: &mut Limits,
+    ) -> Result<Vec<Vec<Arc>>, Status> {
+        let length_m: f64 = arcs.iter().map(|arc| arc.length_m()).sum();
+        let mut draw = seed.stream([u64::from(self.generation), 0]);
+        let n_branches = self.config.n_ants.div_ceil(2);
+        let branches: Vec<_> = (0..n_branches)
+            .map(|_| cut(start, arcs, length_m * draw.unit()))
+            .collect();
+        let (rho, deposit) = (self.config.trails.rho, self.config.trails.deposit);
+        let ground = self.ground_mut();
+        ground.trails.renew(rho, deposit, (start, arcs));
+        ground.first_wins = false;
+        ground.starts = branches.iter().map(|branch| branch.1).collect();
+        self.walk();
+        let ways = std::mem::take(&mut self.ways.0);
+        let mut whole = Vec::new();
+        for (index, way) in ways.into_iter().enumerate() {
+            limits.look()?;
+            if limits.take(way.n_steps) < way.n_steps {
+                return Err(Status::BudgetExhausted);
+            }
+            if way.died_at.is_none() {
+                let (before, _) = &branches[index / 2 % branches.len()];
+                whole.push(before.iter().copied().chain(way.arcs).collect());
+            }
+        }
+        Ok(whole)
+    }
+
+    fn walk(&mut self) {
+        self.crew
+            .walk(&self.ground, self.generation, &mut self.ways);
+        self.generation += 1;
+    }
+}
+
+/// A way cut off after so many metres: what was driven until there, and the state there.
+fn cut(start: Pose2, arcs: &[Arc], driven_m: f64) -> (Vec<Arc>, State) {
+    let (mut before, mut pose, mut left_m) = (Vec::new(), start, driven_m);
+    for &arc in arcs {
+        let length_m = left_m.min(arc.length_m());
+        let part = Arc::new(arc.curvature_per_m, length_m.copysign(arc.signed_length_m));
+        before.push(part);
+        pose = part.end_from(pose);
+        left_m -= length_m;
+        if left_m <= 0.0 {
+            break;
+        }
+    }
+    let arc = before.last().copied().unwrap_or_default();
+    (before, State::start(pose, arc))
 }

@@ -23,6 +23,30 @@ pub struct DriveConfig {
     pub detour_ratio: f64,
     /// How the goal field is repaired where ants die.
     pub repair: FieldRepair,
+    /// The trails that focused ants follow.
+    pub trails: TrailsConfig,
+    /// Generations of focused ants without a gain after which to stop, 0 to 10000; 0 sends none.
+    #[schemars(range(min = 0, max = 10_000))]
+    pub n_stalled: u32,
+    /// Steps that hybrid A* has for a path of its own where ants won the race, 0 to 10^9.
+    #[schemars(range(min = 0, max = 1_000_000_000))]
+    pub second_steps: u64,
+}
+
+/// The trails that focused ants follow.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct TrailsConfig {
+    /// How much ants prefer trails, 0 to 1000: a motion onto full pheromone weighs 1 + alpha times
+    /// as much.
+    #[schemars(range(min = 0.0, max = 1000.0))]
+    pub alpha: f64,
+    /// Share of the pheromone that evaporates in a generation, 0 to 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub rho: f64,
+    /// What the best way so far lays in a generation, 0 to 1; a bin holds at most 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub deposit: f64,
 }
 
 /// How the goal field is repaired where ants die.
@@ -45,6 +69,19 @@ impl Default for DriveConfig {
             n_retreats: 30,
             detour_ratio: 3.0,
             repair: FieldRepair::default(),
+            trails: TrailsConfig::default(),
+            n_stalled: 1,
+            second_steps: 20_000,
+        }
+    }
+}
+
+impl Default for TrailsConfig {
+    fn default() -> Self {
+        Self {
+            alpha: 1.0,
+            rho: 0.2,
+            deposit: 0.5,
         }
     }
 }
@@ -69,6 +106,17 @@ impl DriveConfig {
         let n_retreats = f64::from(self.n_retreats);
         check_range("drive.n_retreats", n_retreats, 0.0..=10_000.0)?;
         check_range("drive.detour_ratio", self.detour_ratio, 1.0..=100.0)?;
+        let n_stalled = f64::from(self.n_stalled);
+        check_range("drive.n_stalled", n_stalled, 0.0..=10_000.0)?;
+        check_range("drive.second_steps", self.second_steps as f64, 0.0..=1e9)?;
+        let TrailsConfig {
+            alpha,
+            rho,
+            deposit,
+        } = self.trails;
+        check_range("drive.trails.alpha", alpha, 0.0..=1000.0)?;
+        check_range("drive.trails.rho", rho, 0.0..=1.0)?;
+        check_range("drive.trails.deposit", deposit, 0.0..=1.0)?;
         let FieldRepair {
             reach_radii,
             toll_per_death,

@@ -44,6 +44,19 @@ pub struct State {
     pub is_start: bool,
 }
 
+impl State {
+    /// Where a vehicle stands that came by an arc, whatever its heading.
+    pub fn start(pose: Pose2, arc: Arc) -> Self {
+        Self {
+            pose,
+            heading_index: 0,
+            arc,
+            cost: 0.0,
+            is_start: true,
+        }
+    }
+}
+
 /// A request on a ground, in grid coordinates.
 #[derive(Clone)]
 pub struct DriveProblem<'a> {
@@ -187,6 +200,11 @@ impl<'a> DriveProblem<'a> {
         }
     }
 
+    /// The end that the search goes out from.
+    pub fn side(&self) -> Side {
+        self.side
+    }
+
     /// Which gears may be used.
     pub fn motion(&self) -> MotionMode {
         self.motion
@@ -212,13 +230,8 @@ impl<'a> DriveProblem<'a> {
 
     /// The first states.
     pub fn start_states(&self) -> impl Iterator<Item = State> + '_ {
-        self.starts.iter().map(|&pose| State {
-            pose,
-            heading_index: 0,
-            arc: Arc::default(),
-            cost: 0.0,
-            is_start: true,
-        })
+        let starts = self.starts.iter();
+        starts.map(|&pose| State::start(pose, Arc::default()))
     }
 
     /// The states that motions lead to and that do not certainly hit anything: by a primitive
