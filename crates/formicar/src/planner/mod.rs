@@ -5,6 +5,7 @@ mod ants;
 mod cells;
 mod chords;
 mod config;
+mod continuous;
 mod curve;
 mod evolve;
 mod explain;
@@ -108,7 +109,10 @@ impl Planner {
             return Err(PlanError::DeadlineWithoutClock);
         }
         let mut limits = Limits::new(observer, request.budget_steps, request.deadline);
-        let found = self.search(request, seed, &mut limits)?;
+        let found = match self.search(request, seed, &mut limits)? {
+            Ok(found) => self.made_continuous(request, seed, found, &mut limits)?,
+            Err(ended) => Err(ended),
+        };
         Ok(self.conclude(request, seed, found, &mut limits))
     }
 }

@@ -97,6 +97,7 @@ impl Request {
                 });
             }
         }
+        self.max_curvature_rate_per_m2(vehicle)?;
         let body = Body::new(vehicle);
         check_end(obstacles, &body, Endpoint::Start, &self.start_poses())?;
         check_end(obstacles, &body, Endpoint::Goal, &self.goal_poses())

@@ -1,9 +1,11 @@
 //! What is asked: a map, a vehicle and a request, checked before anything is planned.
 
 mod check;
+mod curvature;
 mod error;
 mod request;
 
 pub use check::Scenario;
+pub use curvature::{CurvatureMode, CurvatureRate};
 pub use error::{Endpoint, ErrorCode, ScenarioError};
 pub use request::{GoalHeading, GoalTolerance, MotionMode, Request, StartHeading};

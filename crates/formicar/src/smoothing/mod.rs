@@ -7,6 +7,7 @@
 
 mod chain;
 mod config;
+mod continuous;
 mod error;
 mod explain;
 mod open_list;
@@ -19,6 +20,7 @@ mod task;
 mod two_turning;
 mod wide_arcs;
 
+pub use continuous::{Continuity, NoTransition};
 pub use config::{Corners, SmoothingConfig};
 pub use error::{CornerProblem, SmoothingError};
 pub use redundant_nodes::{RedundantNodes, remove_redundant_nodes};

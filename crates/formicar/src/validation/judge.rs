@@ -1,7 +1,7 @@
 //! One verdict from all checks.
 
 use super::report::{Report, Violation, ViolationKind};
-use super::{CURVATURE_TOLERANCE, ends, shape, swept};
+use super::{CURVATURE_TOLERANCE, continuity, ends, shape, swept};
 use crate::collision::ObstacleMap;
 use crate::geometry::Pose2;
 use crate::path::CurvePath;
@@ -27,7 +27,9 @@ pub fn judge(
     let ends = ends::check(vehicle, request, path);
     report.goal_error_m = ends.goal_error_m;
     report.goal_error_rad = ends.goal_error_rad;
-    finish(report, ends.violations)
+    let mut violations = ends.violations;
+    violations.extend(continuity::violations(vehicle, request, path));
+    finish(report, violations)
 }
 
 /// Judges a path by itself: swept collision, border, curvature and joints, with a relative slack
@@ -49,6 +51,8 @@ pub fn judge_path(
         tightest: swept.tightest,
         tightest_s_m: swept.tightest_s_m,
         max_curvature_per_m: shape::max_curvature_per_m(path),
+        max_curvature_rate_per_m2: continuity::max_rate_per_m2(path),
+        is_curvature_continuous: continuity::is_continuous(path),
         ..report
     };
     let mut violations = shape::check(vehicle, path, curvature_slack);
@@ -64,6 +68,8 @@ fn blank(obstacles: &ObstacleMap, vehicle: &Vehicle, path: &CurvePath) -> Report
         tightest: path.start(),
         tightest_s_m: 0.0,
         max_curvature_per_m: 0.0,
+        max_curvature_rate_per_m2: 0.0,
+        is_curvature_continuous: true,
         goal_error_m: 0.0,
         goal_error_rad: 0.0,
         violations: Vec::new(),
@@ -88,6 +94,9 @@ fn path_hash(path: &CurvePath) -> u128 {
     };
     let segments = path.segments().iter().flat_map(|s| {
         let [x, y, heading] = pose(s.start);
+        // The rate stands where there is one: chains of arcs keep the hash that they had before
+        // there were clothoids.
+        let rate = Some(s.curvature_rate_per_m2).filter(|&rate| rate != 0.0);
         [
             x,
             y,
@@ -96,6 +105,8 @@ fn path_hash(path: &CurvePath) -> u128 {
             s.length_m,
             s.direction.sign(),
         ]
+        .into_iter()
+        .chain(rate)
     });
     let bytes: Vec<u8> = pose(path.start())
         .into_iter()
