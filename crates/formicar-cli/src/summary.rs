@@ -27,6 +27,7 @@ pub(crate) fn write(
         curvature(certificate.max_curvature_per_m, vehicle),
         counted(n_cusps, "cusp"),
     )?;
+    write_speed_and_steering(answer, out)?;
     let first = answer
         .timing
         .first_feasible_s
@@ -39,6 +40,24 @@ pub(crate) fn write(
         counted(n_improvements as usize, "time"),
         duration(answer.timing.query_s),
     )
+}
+
+/// How long the drive takes, and how fast the curvature changes: where these are known.
+fn write_speed_and_steering(answer: &Answer, out: &mut impl Write) -> io::Result<()> {
+    let travel_time_s = answer.metrics.as_ref().and_then(|m| m.travel_time_s);
+    let asked = answer.provenance.request.as_ref();
+    let is_continuous = asked.is_some_and(|request| request.curvature.is_some());
+    let rate = answer.certificate.as_ref().filter(|_| is_continuous);
+    let rate = rate.map(|report| report.max_curvature_rate_per_m2);
+    match (travel_time_s, rate) {
+        (None, None) => Ok(()),
+        (Some(time_s), None) => writeln!(out, "driven     in {time_s:.1} s"),
+        (None, Some(rate)) => writeln!(out, "curvature  continuous, up to {rate:.3} 1/m^2"),
+        (Some(time_s), Some(rate)) => writeln!(
+            out,
+            "driven     in {time_s:.1} s, curvature continuous, up to {rate:.3} 1/m^2"
+        ),
+    }
 }
 
 /// Largest curvature against the limit; nothing for a point, which has none.

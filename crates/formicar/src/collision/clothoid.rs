@@ -59,8 +59,7 @@ impl ClothoidDrive {
         // No half length above the cube root holds the second term of the bound alone; with the
         // least that is certain put in there, the first term gives the half length.
         let most_m = (6.0 * tolerance_m / rate).cbrt().min(0.5 * length_m);
-        let half_m =
-            (12.0 * tolerance_m / (rate * (3.0 * body.reach_m() + 2.0 * most_m))).sqrt();
+        let half_m = (12.0 * tolerance_m / (rate * (3.0 * body.reach_m() + 2.0 * most_m))).sqrt();
         let n_arcs = (0.5 * length_m / half_m).ceil().clamp(1.0, MAX_ARCS);
         let half_m = 0.5 * length_m / n_arcs;
         let deviation_m = rate * half_m * half_m * (body.reach_m() / 4.0 + half_m / 6.0);
@@ -139,6 +138,9 @@ mod tests {
         };
         let arcs = clothoid.arcs(&Body::new(&Vehicle::sedan()), 1e-4);
         assert_eq!(arcs.len(), 1);
-        assert_eq!((arcs[0].deviation_m, arcs[0].drive.start), (0.0, clothoid.start));
+        assert_eq!(
+            (arcs[0].deviation_m, arcs[0].drive.start),
+            (0.0, clothoid.start)
+        );
     }
 }

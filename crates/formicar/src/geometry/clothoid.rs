@@ -67,12 +67,14 @@ fn turn(curvature: f64, rate: f64, length: f64) -> f64 {
 
 /// From the first to the last point of a piece, by the heading and curvature in its middle.
 fn chord(heading: f64, [curvature, rate]: [f64; 2], half: f64) -> Point2 {
-    let sum = NODES.iter().fold(Point2::default(), |sum, &[node, weight]| {
-        let (ahead, back) = (node * half, -node * half);
-        let both = Point2::unit(heading + turn(curvature, rate, ahead))
-            + Point2::unit(heading + turn(curvature, rate, back));
-        sum + both * weight
-    });
+    let sum = NODES
+        .iter()
+        .fold(Point2::default(), |sum, &[node, weight]| {
+            let (ahead, back) = (node * half, -node * half);
+            let both = Point2::unit(heading + turn(curvature, rate, ahead))
+                + Point2::unit(heading + turn(curvature, rate, back));
+            sum + both * weight
+        });
     sum * half
 }
 
@@ -137,6 +139,9 @@ mod tests {
         let x = 40.0;
         let end = Pose2::default().advance_clothoid(0.0, std::f64::consts::PI, x);
         let off = end.position().distance(Point2::new(0.5, 0.5));
-        assert!((off - 1.0 / (std::f64::consts::PI * x)).abs() < 1e-6, "{off}");
+        assert!(
+            (off - 1.0 / (std::f64::consts::PI * x)).abs() < 1e-6,
+            "{off}"
+        );
     }
 }

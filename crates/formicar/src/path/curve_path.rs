@@ -359,7 +359,10 @@ mod tests {
             assert!((clothoid.total_turn_rad() - (0.05 + 0.45)).abs() < 1e-12);
             assert!((clothoid.max_abs_curvature_per_m() - 0.6).abs() < 1e-15);
             for driven in [0.3, 1.0, 1.7] {
-                let (a, b) = (clothoid.pose_at(driven - 1e-5), clothoid.pose_at(driven + 1e-5));
+                let (a, b) = (
+                    clothoid.pose_at(driven - 1e-5),
+                    clothoid.pose_at(driven + 1e-5),
+                );
                 let slope = direction.sign() * (b.heading - a.heading) / 2e-5;
                 assert!((slope - clothoid.curvature_at(driven)).abs() < 1e-9);
                 let along = (b.position() - a.position()).dot(Point2::unit(a.heading));

@@ -143,7 +143,11 @@ impl Wheels {
         };
         // The wheels turn fastest where they point ahead most.
         let [a, b] = curvatures;
-        let least = if a * b <= 0.0 { 0.0 } else { a.abs().min(b.abs()) };
+        let least = if a * b <= 0.0 {
+            0.0
+        } else {
+            a.abs().min(b.abs())
+        };
         let steer = self.wheelbase_m * least;
         rate * (1.0 + steer * steer) / (self.wheelbase_m * rate_per_m2.abs())
     }
@@ -170,7 +174,9 @@ fn steps(path: &CurvePath, limits: &SpeedLimits, wheels: &Wheels, spacing_m: f64
             steps.push(Step {
                 length_m,
                 cap_mps: limits.max_speed_mps.min(lateral).min(steering),
-                stands_s: (i == 0).then(|| standing_s(before, segment, wheels)).flatten(),
+                stands_s: (i == 0)
+                    .then(|| standing_s(before, segment, wheels))
+                    .flatten(),
             });
         }
         before = Some(segment);
@@ -215,7 +221,8 @@ impl Step {
         let peak = (0.5 * (first * first + last * last) + acceleration_mps2 * self.length_m).sqrt();
         let top = peak.min(self.cap_mps).max(first).max(last);
         let changing_s = (2.0 * top - first - last) / acceleration_mps2;
-        let changing_m = (2.0 * top * top - first * first - last * last) / (2.0 * acceleration_mps2);
+        let changing_m =
+            (2.0 * top * top - first * first - last * last) / (2.0 * acceleration_mps2);
         let left_m = (self.length_m - changing_m).max(0.0);
         changing_s + if left_m > 0.0 { left_m / top } else { 0.0 }
     }
@@ -250,7 +257,11 @@ mod tests {
         let profile = profile(&path, &car(None));
         // 2 s and 2 m to reach 2 m/s, the same to stop, 6 m at 2 m/s.
         assert!((profile.travel_time_s - 7.0).abs() < 1e-9, "{profile:?}");
-        let fastest = profile.poses.iter().map(|p| p.speed_mps).fold(0.0, f64::max);
+        let fastest = profile
+            .poses
+            .iter()
+            .map(|p| p.speed_mps)
+            .fold(0.0, f64::max);
         assert!((fastest - 2.0).abs() < 1e-12);
         assert_eq!(profile.poses.len(), path.sample(0.1).len());
         assert!(profile.poses.windows(2).all(|w| w[1].time_s > w[0].time_s));
@@ -303,6 +314,11 @@ mod tests {
             max_lateral_mps2: 0.0,
             ..SpeedLimits::default()
         };
-        assert!(bad.check().unwrap_err().to_string().contains("max_lateral_mps2"));
+        assert!(
+            bad.check()
+                .unwrap_err()
+                .to_string()
+                .contains("max_lateral_mps2")
+        );
     }
 }

@@ -2,7 +2,9 @@
 
 use crate::geometry::Pose2;
 use crate::scenario::ScenarioError;
-use crate::scenario::{CurvatureMode, GoalHeading, GoalTolerance, MotionMode, Request, StartHeading};
+use crate::scenario::{
+    CurvatureMode, GoalHeading, GoalTolerance, MotionMode, Request, StartHeading,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;

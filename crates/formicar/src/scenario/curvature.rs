@@ -116,7 +116,10 @@ mod tests {
         };
         for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e5] {
             let error = error(&asking(Some(bad)), &steered());
-            assert!(error.contains("max_rate_per_m2") && error.contains("hint"), "{error}");
+            assert!(
+                error.contains("max_rate_per_m2") && error.contains("hint"),
+                "{error}"
+            );
         }
         let unknown = error(&asking(None), &Vehicle::lei2020());
         assert!(unknown.contains("max_steer_rate_rad_per_s"), "{unknown}");

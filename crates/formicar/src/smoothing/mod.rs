@@ -20,8 +20,8 @@ mod task;
 mod two_turning;
 mod wide_arcs;
 
-pub use continuous::{Continuity, NoTransition};
 pub use config::{Corners, SmoothingConfig};
+pub use continuous::{Continuity, NoTransition};
 pub use error::{CornerProblem, SmoothingError};
 pub use redundant_nodes::{RedundantNodes, remove_redundant_nodes};
 pub use smooth::{CornerRecord, Ground, Rounding, Smoothed, smooth};

@@ -54,16 +54,18 @@ fn driven(path: &CurvePath) -> impl Iterator<Item = &CurveSegment> {
 
 fn jumps(path: &CurvePath) -> impl Iterator<Item = Jump<'_>> {
     let mut s_m = 0.0;
-    driven(path).zip(driven(path).skip(1)).filter_map(move |(before, after)| {
-        s_m += before.length_m;
-        let amount_per_m = (after.curvature_per_m - before.end_curvature_per_m()).abs();
-        let jumps = before.direction == after.direction && amount_per_m > SAME_CURVATURE_PER_M;
-        jumps.then_some(Jump {
-            after,
-            s_m,
-            amount_per_m,
+    driven(path)
+        .zip(driven(path).skip(1))
+        .filter_map(move |(before, after)| {
+            s_m += before.length_m;
+            let amount_per_m = (after.curvature_per_m - before.end_curvature_per_m()).abs();
+            let jumps = before.direction == after.direction && amount_per_m > SAME_CURVATURE_PER_M;
+            jumps.then_some(Jump {
+                after,
+                s_m,
+                amount_per_m,
+            })
         })
-    })
 }
 
 impl Jump<'_> {

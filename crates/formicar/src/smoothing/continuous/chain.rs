@@ -125,7 +125,12 @@ mod tests {
         for k in [0.1, 0.4, -0.2, 0.3, 0.0] {
             chain.node(k, true);
         }
-        let ramp = |from, to, length_m, sign| Ramp { from, to, length_m, sign };
+        let ramp = |from, to, length_m, sign| Ramp {
+            from,
+            to,
+            length_m,
+            sign,
+        };
         chain.ramps = vec![
             ramp(0, 1, 1.0, 1.0),
             ramp(1, 2, 2.0, 1.0),

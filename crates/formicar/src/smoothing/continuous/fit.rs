@@ -93,7 +93,13 @@ impl Program {
     fn new(chain: &Chain, limits: Limits) -> Self {
         // A full change of curvature costs as much as the length that it takes.
         let full_m = limits.max_curvature_per_m / limits.max_rate_per_m2;
-        let bend = |free: bool| if free { limits.max_curvature_per_m.powi(2) } else { 0.0 };
+        let bend = |free: bool| {
+            if free {
+                limits.max_curvature_per_m.powi(2)
+            } else {
+                0.0
+            }
+        };
         let bends = chain.nodes.iter().map(|node| bend(node.is_free));
         let lengths = chain.ramps.iter().map(|_| full_m * full_m);
         Self {
@@ -180,9 +186,8 @@ fn rows(chain: &Chain, limits: Limits) -> Vec<Row> {
         multiplier: 0.0,
     };
     let free = chain.nodes.iter().enumerate().filter(|(_, n)| n.is_free);
-    let bends = free.flat_map(|(i, _)| {
-        [1.0, -1.0].map(|side| row([(i, side), (i, 0.0), (i, 0.0)], bend))
-    });
+    let bends =
+        free.flat_map(|(i, _)| [1.0, -1.0].map(|side| row([(i, side), (i, 0.0), (i, 0.0)], bend)));
     let first = chain.nodes.len();
     let ramps = chain.ramps.iter().enumerate().flat_map(|(i, ramp)| {
         let length = first + i;
@@ -220,12 +225,10 @@ mod tests {
     fn inverts() {
         let m = [[4.0, 1.0, 0.5], [1.0, 3.0, -0.2], [0.5, -0.2, 2.0]];
         let n = inverse(m).unwrap();
-        for (i, row) in m.iter().enumerate() {
-            for j in 0..3 {
-                let sum: f64 = (0..3).map(|k| row[k] * n[k][j]).sum();
-                let expected = if i == j { 1.0 } else { 0.0 };
-                assert!((sum - expected).abs() < 1e-12);
-            }
+        for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+            let sum: f64 = (0..3).map(|k| m[i][k] * n[k][j]).sum();
+            let expected = if i == j { 1.0 } else { 0.0 };
+            assert!((sum - expected).abs() < 1e-12);
         }
         assert!(inverse([[1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 1.0]]).is_none());
     }
@@ -237,14 +240,29 @@ mod tests {
             max_rate_per_m2: 0.5,
         };
         let mut chain = Chain::default();
-        for (k, free) in [(0.0, false), (0.0, true), (0.5, true), (0.5, true), (0.0, true), (0.0, false)] {
+        for (k, free) in [
+            (0.0, false),
+            (0.0, true),
+            (0.5, true),
+            (0.5, true),
+            (0.0, true),
+            (0.0, false),
+        ] {
             chain.node(k, free);
         }
         let lengths = [5.0, 0.2, 2.0, 0.2, 5.0];
         for (i, length_m) in lengths.into_iter().enumerate() {
-            chain.ramps.push(Ramp { from: i, to: i + 1, length_m, sign: 1.0 });
+            chain.ramps.push(Ramp {
+                from: i,
+                to: i + 1,
+                length_m,
+                sign: 1.0,
+            });
         }
-        let target = Pose2::default().advance(0.0, 5.0).advance(0.5, 2.2).advance(0.0, 5.0);
+        let target = Pose2::default()
+            .advance(0.0, 5.0)
+            .advance(0.5, 2.2)
+            .advance(0.0, 5.0);
         assert!(fit(&mut chain, target, limits));
         let end = chain.poses(Pose2::default())[5];
         assert!(end.position().distance(target.position()) < 1e-10);

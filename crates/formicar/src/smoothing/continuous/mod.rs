@@ -80,16 +80,14 @@ impl Continuity<'_> {
         let mut touches = false;
         for to in 1..stations.len() {
             let reached = |from: &usize| *from == 0 || ways[*from].is_some();
-            let froms = (to.saturating_sub(MAX_SPAN)..to).rev().filter(reached);
-            ways[to] = froms
-                .filter_map(|from| {
-                    let ends = [&stations[from], &stations[to]];
-                    let chain = self.between(&segments, ends)?;
-                    let is_free = self.is_free(&body, &chain, ends[0].pose);
-                    touches |= !is_free;
-                    is_free.then_some(Way { from, chain })
-                })
-                .next();
+            let mut froms = (to.saturating_sub(MAX_SPAN)..to).rev().filter(reached);
+            ways[to] = froms.find_map(|from| {
+                let ends = [&stations[from], &stations[to]];
+                let chain = self.between(&segments, ends)?;
+                let is_free = self.is_free(&body, &chain, ends[0].pose);
+                touches |= !is_free;
+                is_free.then_some(Way { from, chain })
+            });
         }
         assembled(&stations, &ways).ok_or_else(|| self.failure(&stations, &ways, touches))
     }
@@ -172,18 +170,22 @@ fn goes_on(last: &CurveSegment, next: &CurveSegment) -> bool {
 }
 
 fn segments_of(chain: &Chain, start: Pose2) -> impl Iterator<Item = CurveSegment> + '_ {
-    chain.ramps.iter().zip(chain.poses(start)).map(|(ramp, start)| {
-        let [from, to] = chain.curvatures(ramp);
-        CurveSegment {
-            start,
-            curvature_per_m: from,
-            curvature_rate_per_m2: (to - from) / ramp.length_m,
-            length_m: ramp.length_m,
-            direction: if ramp.sign < 0.0 {
-                Direction::Reverse
-            } else {
-                Direction::Forward
-            },
-        }
-    })
+    chain
+        .ramps
+        .iter()
+        .zip(chain.poses(start))
+        .map(|(ramp, start)| {
+            let [from, to] = chain.curvatures(ramp);
+            CurveSegment {
+                start,
+                curvature_per_m: from,
+                curvature_rate_per_m2: (to - from) / ramp.length_m,
+                length_m: ramp.length_m,
+                direction: if ramp.sign < 0.0 {
+                    Direction::Reverse
+                } else {
+                    Direction::Forward
+                },
+            }
+        })
 }

@@ -89,7 +89,11 @@ pub(super) fn first_chain(
 
 fn parts(segments: &[CurveSegment], from: &Station, to: &Station, limits: Limits) -> Vec<Part> {
     let bend = limits.max_curvature_per_m * (1.0 - RESERVE);
-    let last = if to.stands { to.segment } else { to.segment + 1 };
+    let last = if to.stands {
+        to.segment
+    } else {
+        to.segment + 1
+    };
     let range = from.segment..last;
     let starts_midway = |i: usize| !from.stands && i == from.segment;
     let ends_midway = |i: usize| !to.stands && i == to.segment;
@@ -120,9 +124,8 @@ fn add_gear(chain: &mut Chain, parts: &[Part], frees: [bool; 2], limits: Limits)
     let rate = limits.max_rate_per_m2 * (1.0 - RESERVE);
     let half_ramp = |a: &Part, b: &Part| {
         let wanted = 0.5 * (b.curvature_per_m - a.curvature_per_m).abs() / rate;
-        let room = |part: &Part, side: usize| {
-            part.length_m * if part.ends[side] { 1.0 } else { 0.5 }
-        };
+        let room =
+            |part: &Part, side: usize| part.length_m * if part.ends[side] { 1.0 } else { 0.5 };
         wanted.min(room(a, 0)).min(room(b, 1))
     };
     let mut node = chain.node(parts[0].curvature_per_m, frees[0]);
