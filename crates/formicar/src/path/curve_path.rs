@@ -218,7 +218,8 @@ impl CurvePath {
     }
 
     /// The same path with its clothoids cut into arcs: each starts where the clothoid is, turns as
-    /// it does, and ends at most `gap_m` away from it. Lines and arcs stay as they are.
+    /// it does, and ends at most `gap_m` away from it, unless that takes more than 2000 arcs. Lines and
+    /// arcs stay as they are.
     #[must_use]
     pub fn with_arcs(&self, gap_m: f64) -> Self {
         let segments = self.segments.iter().flat_map(|s| arcs_of(s, gap_m));
@@ -291,19 +292,15 @@ impl CurvePath {
 /// A segment as arcs. On a piece of half length h the arc of the mean curvature is off by the
 /// integral of the heading's difference `rate (t^2 - h^2) / 2`: 2/3 rate h^3 at its end.
 fn arcs_of(segment: &CurveSegment, gap_m: f64) -> Vec<CurveSegment> {
-    const MAX_PIECES: f64 = 1e5;
+    // Nobody has checked the numbers: beyond so many the gap grows instead.
+    const MAX_PIECES: f64 = 2e3;
     let rate = segment.curvature_rate_per_m2;
     if rate == 0.0 {
         return vec![*segment];
     }
     let half_m = (1.5 * gap_m / rate.abs()).cbrt();
     let n_pieces = (0.5 * segment.length_m / half_m).ceil();
-    // Nobody has checked the numbers: what no vehicle drives becomes one arc.
-    let n_pieces = if n_pieces <= MAX_PIECES {
-        n_pieces.max(1.0)
-    } else {
-        1.0
-    };
+    let n_pieces = n_pieces.min(MAX_PIECES).max(1.0);
     let length_m = segment.length_m / n_pieces;
     let mut here = CurveSegment {
         length_m,

@@ -17,6 +17,11 @@ struct Gentler {
     margin_widths: f64,
 }
 
+/// Steps that each further search may take: so many, and a share of those of the first. A gentler
+/// vehicle may have no way at all, and the proof of that takes long.
+const STEPS_MORE: u64 = 5_000;
+const SHARE_MORE: u64 = 2;
+
 /// Tried in this order where transitions do not fit into the first path.
 const GENTLER: [Gentler; 5] = [
     Gentler {
@@ -63,17 +68,19 @@ impl Planner {
             Ok(path) => return Ok(Ok(Found { path, ..found })),
             Err(problem) => problem,
         };
+        let n_more = STEPS_MORE + SHARE_MORE * limits.n_steps();
         for gentler in &GENTLER {
             let Some(mut planner) = self.gentler(gentler, request) else {
                 continue;
             };
-            match planner.search(request, seed, limits)? {
+            let searched = limits.within(n_more, |limits| planner.search(request, seed, limits));
+            match searched? {
                 Ok(other) => {
                     if let Ok(path) = continuity.apply(&other.path) {
                         return Ok(Ok(Found { path, ..other }));
                     }
                 }
-                Err(ended) if was_stopped(ended.status) => return Ok(Err(ended)),
+                Err(ended) if was_stopped(ended.status, limits) => return Ok(Err(ended)),
                 Err(_) => {}
             }
         }
@@ -100,12 +107,13 @@ impl Planner {
     }
 }
 
-/// Whether a search was stopped from outside.
-fn was_stopped(status: Status) -> bool {
-    matches!(
-        status,
-        Status::BudgetExhausted | Status::TimedOut | Status::Cancelled
-    )
+/// Whether a search was stopped from outside, and not by its own share of steps.
+fn was_stopped(status: Status, limits: &Limits) -> bool {
+    match status {
+        Status::TimedOut | Status::Cancelled => true,
+        Status::BudgetExhausted => limits.is_exhausted(),
+        _ => false,
+    }
 }
 
 impl Gentler {
