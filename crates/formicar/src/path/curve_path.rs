@@ -292,15 +292,22 @@ impl CurvePath {
 /// A segment as arcs. On a piece of half length h the arc of the mean curvature is off by the
 /// integral of the heading's difference `rate (t^2 - h^2) / 2`: 2/3 rate h^3 at its end.
 fn arcs_of(segment: &CurveSegment, gap_m: f64) -> Vec<CurveSegment> {
-    // Nobody has checked the numbers: beyond so many the gap grows instead.
+    // Nobody has checked the numbers: beyond so many pieces the gap grows instead, and what turns
+    // more than the judge looks at becomes one arc.
     const MAX_PIECES: f64 = 2e3;
+    const MAX_TURN_RAD: f64 = 1e4;
     let rate = segment.curvature_rate_per_m2;
     if rate == 0.0 {
         return vec![*segment];
     }
     let half_m = (1.5 * gap_m / rate.abs()).cbrt();
     let n_pieces = (0.5 * segment.length_m / half_m).ceil();
-    let n_pieces = n_pieces.min(MAX_PIECES).max(1.0);
+    let turn_rad = segment.max_abs_curvature_per_m() * segment.length_m.abs();
+    let n_pieces = if turn_rad <= MAX_TURN_RAD {
+        n_pieces.min(MAX_PIECES).max(1.0)
+    } else {
+        1.0
+    };
     let length_m = segment.length_m / n_pieces;
     let mut here = CurveSegment {
         length_m,
@@ -313,8 +320,10 @@ fn arcs_of(segment: &CurveSegment, gap_m: f64) -> Vec<CurveSegment> {
             curvature_rate_per_m2: 0.0,
             ..here
         });
-        here.start = here.end();
-        here.curvature_per_m = segment.curvature_at((i + 1) as f64 * length_m);
+        if i + 1 < n_pieces as usize {
+            here.start = here.end();
+            here.curvature_per_m = segment.curvature_at((i + 1) as f64 * length_m);
+        }
     }
     arcs
 }
