@@ -304,7 +304,7 @@ fn arcs_of(segment: &CurveSegment, gap_m: f64) -> Vec<CurveSegment> {
     let n_pieces = (0.5 * segment.length_m / half_m).ceil();
     let turn_rad = segment.max_abs_curvature_per_m() * segment.length_m.abs();
     let n_pieces = if turn_rad <= MAX_TURN_RAD {
-        n_pieces.min(MAX_PIECES).max(1.0)
+        n_pieces.clamp(1.0, MAX_PIECES)
     } else {
         1.0
     };
