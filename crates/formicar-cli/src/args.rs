@@ -145,6 +145,16 @@ pub(crate) struct PlanArgs {
           value_parser = values::word::<MotionMode>(&["forward", "reverse"]))]
     pub(crate) motion: Option<MotionMode>,
 
+    /// Let the curvature change at most so fast along the way, 1/m^2, instead of jumping from arc to
+    /// arc; without a number as fast as the vehicle's steering rate allows at its speed.
+    #[arg(long, value_name = "RATE", num_args = 0..=1, value_parser = values::number,
+          allow_negative_numbers = true)]
+    #[allow(
+        clippy::option_option,
+        reason = "the flag, and its number: clap's way to say it"
+    )]
+    pub(crate) continuous_curvature: Option<Option<f64>>,
+
     /// Whether the start heading is fixed.
     #[arg(long, value_name = "MODE",
           value_parser = values::word::<StartHeading>(&["exact", "any"]))]

@@ -28,6 +28,7 @@ pub(crate) fn write(
         counted(n_cusps, "cusp"),
         goal_of_several(answer),
     )?;
+    write_speed_and_steering(answer, out)?;
     let first = answer
         .timing
         .first_feasible_s
@@ -50,6 +51,24 @@ fn goal_of_several(answer: &Answer) -> String {
     match (goals, reached) {
         (Some(goals), Some(i)) => format!("  at goal {} of {}", i + 1, goals.len()),
         _ => String::new(),
+    }
+}
+
+/// How long the drive takes, and how fast the curvature changes: where these are known.
+fn write_speed_and_steering(answer: &Answer, out: &mut impl Write) -> io::Result<()> {
+    let travel_time_s = answer.metrics.as_ref().and_then(|m| m.travel_time_s);
+    let asked = answer.provenance.request.as_ref();
+    let is_continuous = asked.is_some_and(|request| request.curvature.is_some());
+    let rate = answer.certificate.as_ref().filter(|_| is_continuous);
+    let rate = rate.map(|report| report.max_curvature_rate_per_m2);
+    match (travel_time_s, rate) {
+        (None, None) => Ok(()),
+        (Some(time_s), None) => writeln!(out, "driven     in {time_s:.1} s"),
+        (None, Some(rate)) => writeln!(out, "curvature  continuous, up to {rate:.3} 1/m^2"),
+        (Some(time_s), Some(rate)) => writeln!(
+            out,
+            "driven     in {time_s:.1} s, curvature continuous, up to {rate:.3} 1/m^2"
+        ),
     }
 }
 

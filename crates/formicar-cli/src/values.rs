@@ -7,7 +7,7 @@ use formicar::tracking::StartOffset;
 use serde::de::DeserializeOwned;
 
 /// A finite number.
-fn number(text: &str) -> Result<f64, String> {
+pub(crate) fn number(text: &str) -> Result<f64, String> {
     let value: f64 = text
         .trim()
         .parse()

@@ -364,3 +364,66 @@ nonsense
             .contains("goal is missing")
     );
 }
+
+/// A car that says how fast it drives and steers.
+const STEERED: &str = r#"{"wheelbase_m": 0.65, "width_m": 0.5, "front_overhang_m": 0.1,
+    "rear_overhang_m": 0.1, "max_steer_deg": 40, "max_steer_rate_rad_per_s": 0.8, "speed_mps": 0.8}"#;
+
+#[test]
+fn continuous_curvature_is_planned_written_and_checked() {
+    let room = Room::new();
+    room.write("steered.json", STEERED);
+    let vehicle = ["--vehicle", "steered.json"];
+    let run = room.plan(
+        &[
+            &vehicle[..],
+            &["--continuous-curvature", "--out", "smooth.json"],
+        ]
+        .concat(),
+    );
+    assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
+    assert!(
+        run.stdout.contains("curvature continuous, up to "),
+        "{}",
+        run.stdout
+    );
+    assert!(run.stdout.contains("driven     in "), "{}", run.stdout);
+
+    let answer: Value = serde_json::from_str(&room.read("smooth.json")).unwrap();
+    assert_eq!(answer["certificate"]["is_curvature_continuous"], true);
+    let rate = &answer["certificate"]["max_curvature_rate_per_m2"];
+    assert!(
+        rate.as_f64().unwrap() <= 0.8 / (0.65 * 0.8) * (1.0 + 1e-9),
+        "{rate}"
+    );
+    assert_eq!(
+        answer["provenance"]["request"]["curvature"],
+        json!({"continuous": {}})
+    );
+    let segments = answer["path"]["segments"].as_array().unwrap();
+    assert!(segments.iter().any(|s| s["curvature_rate"].is_f64()));
+    let last = answer["path"]["poses"].as_array().unwrap().last().unwrap();
+    assert_eq!(last["speed"], 0.0);
+    assert!(
+        (last["time"].as_f64().unwrap() - answer["metrics"]["travel_time_s"].as_f64().unwrap())
+            .abs()
+            < 1e-9
+    );
+
+    let check = ["check", "smooth.json", "--map", "room.yaml", "--json"];
+    let check = room.run(&[&check[..], &vehicle[..]].concat());
+    assert_eq!(check.code, 0, "{}{}", check.stdout, check.stderr);
+    assert_eq!(check.json()["matches_record"]["path"], true);
+    assert_eq!(check.json()["matches_record"]["numbers"], true);
+}
+
+#[test]
+fn a_rate_that_is_none_is_refused_in_words() {
+    let room = Room::new();
+    room.plan(&["--continuous-curvature", "-1"])
+        .assert_refused(&["max_rate_per_m2", "-1", "0.0001 to 10000", "hint"]);
+    room.plan(&["--continuous-curvature", "fast"])
+        .assert_refused(&["fast", "not a number"]);
+    room.plan(&["--continuous-curvature"])
+        .assert_refused(&["max_steer_rate_rad_per_s", "hint"]);
+}

@@ -408,10 +408,11 @@ proptest! {
     }
 
     #[test]
-    fn any_path_is_drawn_or_left_out(numbers in prop::collection::vec(any_number(), 20)) {
-        let segments = numbers.chunks(5).map(|n| CurveSegment {
+    fn any_path_is_drawn_or_left_out(numbers in prop::collection::vec(any_number(), 24)) {
+        let segments = numbers.chunks(6).map(|n| CurveSegment {
             start: Pose2::new(n[0], n[1], n[2]),
             curvature_per_m: n[3],
+            curvature_rate_per_m2: n[5],
             length_m: n[4],
             direction: if n[0] > 0.0 { Direction::Forward } else { Direction::Reverse },
         });

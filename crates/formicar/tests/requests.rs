@@ -317,7 +317,9 @@ fn hall(is_unwanted: impl Fn(Cell) -> bool) -> (OccupancyGrid, SoftCosts) {
 fn unwanted_m(path: &CurvePath, costs: &SoftCosts) -> f64 {
     let spacing_m = 0.01;
     let samples = path.sample(spacing_m).into_iter();
-    samples.map(|at| costs.value_at(at.pose) * spacing_m).sum()
+    samples
+        .map(|at| costs.value_at(at.pose.position()) * spacing_m)
+        .sum()
 }
 
 #[test]

@@ -133,6 +133,7 @@ fn joints_must_meet() {
     let line = |start, length_m| CurveSegment {
         start,
         curvature_per_m: 0.0,
+        curvature_rate_per_m2: 0.0,
         length_m,
         direction: Direction::Forward,
     };
@@ -201,6 +202,7 @@ fn numbers_that_are_none_are_malformed() {
         let segment = CurveSegment {
             start,
             curvature_per_m,
+            curvature_rate_per_m2: 0.0,
             length_m,
             direction: Direction::Forward,
         };

@@ -18,7 +18,7 @@ use formicar::planner::{
 };
 use formicar::progress::AntFrames;
 use formicar::render::Layout;
-use formicar::scenario::ViaPoint;
+use formicar::scenario::{CurvatureMode, CurvatureRate, ViaPoint};
 use std::io::Write;
 use std::sync::Arc;
 use std::time::Instant;
@@ -135,6 +135,9 @@ fn request(args: &PlanArgs, ground: &Ground) -> RequestDocument {
         via: (!via.is_empty()).then_some(via),
         goal_tolerance: args.goal_tolerance,
         motion: args.motion,
+        curvature: args
+            .continuous_curvature
+            .map(|max_rate_per_m2| CurvatureMode::Continuous(CurvatureRate { max_rate_per_m2 })),
         start_heading: args.start_heading,
         goal_heading: args.goal_heading,
         deadline_ms: args.deadline,

@@ -4,10 +4,12 @@
 //! axes); [`ObstacleMap::frame`] carries world poses there and back. Distances are Euclidean,
 //! from the closed body to the closed squares of lethal cells and to the map's border, exact up
 //! to rounding: a straight sweep is one convex polygon, and along an arc the nearest pair always
-//! has a corner of body or square in it, whose track is a circle.
+//! has a corner of body or square in it, whose track is a circle. A clothoid is swept as arcs with
+//! a proven deviation, which is taken off the clearance.
 
 mod arc;
 mod body;
+mod clothoid;
 mod contact;
 mod convex;
 mod estimate;
@@ -18,6 +20,7 @@ mod overlap;
 mod sweep;
 
 pub use body::Body;
+pub use clothoid::{ClothoidDrive, NearbyDrive};
 pub use obstacle_map::ObstacleMap;
 pub use overlap::Overlap;
 pub use sweep::Drive;

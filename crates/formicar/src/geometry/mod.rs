@@ -1,8 +1,9 @@
-//! Points, poses, angles, polygons, curves of bounded curvature, splines and biarcs in the plane.
+//! Points, poses, angles, polygons, curves of bounded curvature, splines, clothoids and biarcs in the plane.
 
 mod angle;
 mod b_spline;
 mod biarc;
+mod clothoid;
 mod curve;
 pub mod dubins;
 pub mod joins;

@@ -3,7 +3,7 @@
 use super::SteeringShare;
 use crate::collision::{Body, ObstacleMap};
 use crate::geometry::{Pose2, angle_difference};
-use crate::path::{CurvePath, CurveSegment};
+use crate::path::{CurvePath, CurveSegment, SpeedLimits, SpeedProfile};
 use crate::vehicle::Vehicle;
 use serde::Serialize;
 
@@ -73,6 +73,10 @@ pub struct PathMetrics {
     pub mean_clearance_m: f64,
     /// Largest absolute angle of the virtual middle front wheel, where the wheelbase is known.
     pub max_steer_rad: Option<f64>,
+    /// Time of the fastest drive within the vehicle's speed, the default accelerations of
+    /// [`SpeedLimits`] and the steering rate, seconds; where the vehicle says how fast it drives.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub travel_time_s: Option<f64>,
     /// How hard the path turns from step to step, at [`SteeringShare::DEFAULT_SPACING_M`].
     pub steering_share: SteeringShare,
     /// Distance of the last pose from the goal, metres.
@@ -82,10 +86,14 @@ pub struct PathMetrics {
 }
 
 impl PathMetrics {
+    /// Most that two samples of the speed profile lie apart, as in answers.
+    const SPEED_SPACING_M: f64 = 0.1;
+
     /// Joints that turn by less are rounding, radians.
     const CORNER_RAD: f64 = 1e-9;
 
-    /// Curvatures that differ by less are one, relative to the larger.
+    /// Curvatures that differ by less are one, relative to the larger, or to 0.001 1/m: a clothoid
+    /// that ends in a line ends beside curvature 0 by rounding.
     const SAME_CURVATURE: f64 = 1e-9;
 
     /// The metrics of a path that should end at `goal`.
@@ -106,10 +114,13 @@ impl PathMetrics {
                 0.0
             }
         };
-        let turning = segments().fold(0.0, |sum, s| sum + s.curvature_per_m.abs() * s.length_m);
+        let turning = segments().fold(0.0, |sum, s| sum + s.total_turn_rad());
         let total_turning_rad = turning + joints().map(|(a, b)| corner_rad(a, b)).sum::<f64>();
         let max_curvature_per_m = segments()
-            .map(|s| s.curvature_per_m.abs())
+            .map(CurveSegment::max_abs_curvature_per_m)
+            .fold(0.0, f64::max);
+        let max_curvature_rate_per_m2 = segments()
+            .map(|s| s.curvature_rate_per_m2.abs())
             .fold(0.0, f64::max);
         let reversed = segments().filter(|s| s.direction.sign() < 0.0);
         Self {
@@ -118,13 +129,16 @@ impl PathMetrics {
             mean_abs_curvature_per_m: per_length(turning),
             total_turning_rad,
             aol_rad_per_m: per_length(total_turning_rad),
-            max_curvature_rate_per_m2: 0.0,
+            max_curvature_rate_per_m2,
             n_curvature_jumps: joints().filter(|(a, b)| is_curvature_jump(a, b)).count(),
             n_cusps: joints().filter(|(a, b)| a.direction != b.direction).count(),
             reverse_length_m: reversed.fold(0.0, |sum, s| sum + s.length_m),
             min_clearance_m: clearance.min_m,
             mean_clearance_m: clearance.mean_m,
             max_steer_rad: vehicle.steer_rad(max_curvature_per_m),
+            travel_time_s: SpeedLimits::of(vehicle).map(|limits| {
+                SpeedProfile::new(path, vehicle, &limits, Self::SPEED_SPACING_M).travel_time_s
+            }),
             steering_share: SteeringShare::new(path, SteeringShare::DEFAULT_SPACING_M),
             goal_error_m: path.end().position().distance(goal.position()),
             goal_error_rad: angle_difference(path.end().heading, goal.heading).abs(),
@@ -142,8 +156,8 @@ fn corner_rad(before: &CurveSegment, after: &CurveSegment) -> f64 {
 }
 
 fn is_curvature_jump(before: &CurveSegment, after: &CurveSegment) -> bool {
-    let (a, b) = (before.curvature_per_m, after.curvature_per_m);
-    let same = (a - b).abs() <= PathMetrics::SAME_CURVATURE * a.abs().max(b.abs());
+    let (a, b) = (before.end_curvature_per_m(), after.curvature_per_m);
+    let same = (a - b).abs() <= PathMetrics::SAME_CURVATURE * a.abs().max(b.abs()).max(1e-3);
     before.direction == after.direction && !same
 }
 

@@ -1,8 +1,10 @@
 //! Paths, one type per stage of planning: cells, way points, drivable curves.
 
 mod curve_path;
+mod speed;
 
 pub use curve_path::{CurvePath, CurveSegment, Direction, PathPose};
+pub use speed::{SpeedLimits, SpeedProfile, TimedPose};
 
 use crate::geometry::Point2;
 use crate::map::Cell;

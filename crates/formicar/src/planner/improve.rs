@@ -17,7 +17,10 @@ const WORTH_RATIO: f64 = 1.3;
 /// Tries that the way of an ant is given at first,
 const GLANCE_TRIES: u64 = 300;
 /// and how much dearer than the best path it may then be to be improved further.
-const PROMISING_RATIO: f64 = 1.01;
+const PROMISING_RATIO: f64 = 1.03;
+/// Ants look for other ways around where the best path costs at least so many times the way along
+/// the goal field, which knows no turns.
+const GOOD_RATIO: f64 = 1.25;
 
 impl Planner {
     /// Finds a path and improves it.
@@ -120,7 +123,11 @@ impl Best<'_> {
                 Err(status) => return Err(status),
             }
         }
-        if rules.config.n_stalled == 0 || rules.config.n_ants == 0 || problem.side() == Side::Goal {
+        let start = problem.starts().first().map(|pose| pose.position());
+        let least_m = start.and_then(|start| guide.estimate_m(&problem, start));
+        let is_good = least_m.is_some_and(|least_m| self.cost_m < GOOD_RATIO * least_m);
+        let sends_none = rules.config.n_stalled == 0 || rules.config.n_ants == 0;
+        if is_good || sends_none || problem.side() == Side::Goal {
             return Ok(());
         }
         let ants = (rules.seed, rules.n_threads);

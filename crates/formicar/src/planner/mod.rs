@@ -5,6 +5,7 @@ mod ants;
 mod cells;
 mod chords;
 mod config;
+mod continuous;
 mod curve;
 mod evolve;
 mod explain;
@@ -140,12 +141,13 @@ impl Planner {
             return Err(PlanError::DeadlineWithoutClock);
         }
         let mut limits = Limits::new(observer, request.budget_steps, request.deadline);
-        let found = if let Some(sealed) = self.sealed_off(request) {
-            Err(sealed)
-        } else if request.via.is_empty() {
-            self.reach(request, seed, &mut limits)?
-        } else {
-            self.search_legs(request, seed, &mut limits)?
+        let found = match self.sealed_off(request) {
+            Some(sealed) => Err(sealed),
+            None => self.find(request, seed, &mut limits)?,
+        };
+        let found = match found {
+            Ok(found) => self.made_continuous(request, seed, found, &mut limits)?,
+            Err(ended) => Err(ended),
         };
         Ok(self.conclude(request, seed, found, &mut limits))
     }

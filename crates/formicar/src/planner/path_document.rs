@@ -2,7 +2,7 @@
 
 use crate::collision::{Body, ObstacleMap};
 use crate::geometry::{Pose2, wrap_angle};
-use crate::path::{CurvePath, CurveSegment, Direction};
+use crate::path::{CurvePath, CurveSegment, Direction, SpeedLimits, SpeedProfile, TimedPose};
 use crate::vehicle::Vehicle;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -40,9 +40,16 @@ pub struct PoseRecord {
     pub steer: Option<f64>,
     /// Distance from the footprint to the nearest obstacle or map border, metres.
     pub clearance: f64,
+    /// Speed when the pose is reached, metres per second; where the vehicle says how fast it drives.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub speed: Option<f64>,
+    /// Time when the pose is reached, seconds; where the vehicle says how fast it drives.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time: Option<f64>,
 }
 
-/// A line or arc; along it the heading changes by `direction * curvature * length`.
+/// A line, an arc or a clothoid; along it the heading changes by
+/// `direction * (curvature * length + curvature_rate * length^2 / 2)`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SegmentRecord {
     /// Start of the segment, metres.
@@ -51,8 +58,11 @@ pub struct SegmentRecord {
     pub y: f64,
     /// Heading at the start of the segment, radians.
     pub heading: f64,
-    /// tan(steer) / wheelbase, 1/m, positive left.
+    /// tan(steer) / wheelbase at the start of the segment, 1/m, positive left.
     pub curvature: f64,
+    /// Change of the curvature per driven metre, 1/m^2; left out on lines and arcs, where it is 0.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub curvature_rate: f64,
     /// Driven length, metres.
     pub length: f64,
     /// Gear: 1 forward, -1 in reverse.
@@ -60,14 +70,24 @@ pub struct SegmentRecord {
     pub direction: Direction,
 }
 
+#[allow(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde hands over a reference"
+)]
+fn is_zero(number: &f64) -> bool {
+    *number == 0.0
+}
+
 impl PathDocument {
     /// A path in world coordinates, measured against a map with a vehicle.
     pub fn new(path: &CurvePath, obstacles: &ObstacleMap, vehicle: &Vehicle) -> Self {
         let body = Body::new(vehicle);
+        let timed = timed(path, vehicle);
         let poses = path
             .sample(POSE_SPACING_M)
             .into_iter()
-            .map(|at| PoseRecord {
+            .enumerate()
+            .map(|(i, at)| PoseRecord {
                 x: at.pose.x,
                 y: at.pose.y,
                 heading: wrap_angle(at.pose.heading),
@@ -76,6 +96,8 @@ impl PathDocument {
                 curvature: at.curvature_per_m,
                 steer: vehicle.steer_rad(at.curvature_per_m),
                 clearance: obstacles.clearance_m(&body, obstacles.frame().to_grid(at.pose)),
+                speed: timed.get(i).map(|timed| timed.speed_mps),
+                time: timed.get(i).map(|timed| timed.time_s),
             });
         Self {
             poses: poses.collect(),
@@ -91,21 +113,35 @@ impl PathDocument {
         Some(CurvePath::from_segments(start, segments))
     }
 
-    /// The poses as CSV, with a header; an unknown steering angle is left empty.
+    /// The poses as CSV, with a header; an unknown steering angle is left empty. Speed and time have
+    /// columns where they are known.
     pub fn poses_csv(&self) -> String {
-        let mut text = String::from("x,y,heading,s,direction,curvature,steer,clearance\n");
+        let mut text = String::from("x,y,heading,s,direction,curvature,steer,clearance");
+        let is_timed = self.poses.first().is_some_and(|p| p.time.is_some());
+        text.push_str(if is_timed { ",speed,time\n" } else { "\n" });
         for p in &self.poses {
             let steer = p.steer.map_or(String::new(), |steer| steer.to_string());
             let direction = i8::from(p.direction);
+            let timing = match (p.speed, p.time) {
+                (Some(speed), Some(time)) => format!(",{speed},{time}"),
+                _ => String::new(),
+            };
             // Writing to a string does not fail.
             let _ = writeln!(
                 text,
-                "{},{},{},{},{direction},{},{steer},{}",
+                "{},{},{},{},{direction},{},{steer},{}{timing}",
                 p.x, p.y, p.heading, p.s, p.curvature, p.clearance
             );
         }
         text
     }
+}
+
+/// Speed and time at each pose; none where the vehicle does not say how fast it drives.
+fn timed(path: &CurvePath, vehicle: &Vehicle) -> Vec<TimedPose> {
+    SpeedLimits::of(vehicle).map_or_else(Vec::new, |limits| {
+        SpeedProfile::new(path, vehicle, &limits, POSE_SPACING_M).poses
+    })
 }
 
 impl From<&CurveSegment> for SegmentRecord {
@@ -115,6 +151,7 @@ impl From<&CurveSegment> for SegmentRecord {
             y: segment.start.y,
             heading: segment.start.heading,
             curvature: segment.curvature_per_m,
+            curvature_rate: segment.curvature_rate_per_m2,
             length: segment.length_m,
             direction: segment.direction,
         }
@@ -126,6 +163,7 @@ impl From<&SegmentRecord> for CurveSegment {
         Self {
             start: Pose2::new(record.x, record.y, record.heading),
             curvature_per_m: record.curvature,
+            curvature_rate_per_m2: record.curvature_rate,
             length_m: record.length,
             direction: record.direction,
         }

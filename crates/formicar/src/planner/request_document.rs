@@ -3,7 +3,9 @@
 use super::via_record::ViaRecord;
 use crate::geometry::Pose2;
 use crate::scenario::ScenarioError;
-use crate::scenario::{GoalHeading, GoalTolerance, MotionMode, Request, StartHeading};
+use crate::scenario::{
+    CurvatureMode, GoalHeading, GoalTolerance, MotionMode, Request, StartHeading,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
@@ -30,6 +32,9 @@ pub struct RequestDocument {
     pub goal_tolerance: Option<GoalTolerance>,
     /// Which gears may be used.
     pub motion: Option<MotionMode>,
+    /// Whether the curvature may jump: `"arcs"`, or `{"continuous": {"max_rate_per_m2": 0.5}}`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub curvature: Option<CurvatureMode>,
     /// Whether the start heading is fixed.
     pub start_heading: Option<StartHeading>,
     /// Whether the goal heading is fixed.
@@ -80,6 +85,7 @@ impl RequestDocument {
                 .or(defaults.goal_tolerance)
                 .unwrap_or_default(),
             motion: self.motion.or(defaults.motion).unwrap_or_default(),
+            curvature: self.curvature.or(defaults.curvature).unwrap_or_default(),
             deadline: deadline_ms.map(deadline).transpose()?,
             budget_steps: self.budget_steps.or(defaults.budget_steps),
         })
@@ -133,6 +139,8 @@ impl From<&Request> for RequestDocument {
             via: (!via.is_empty()).then_some(via),
             goal_tolerance: Some(request.goal_tolerance),
             motion: Some(request.motion),
+            // Left out where nothing was asked for, so that such answers stay what they were.
+            curvature: Some(request.curvature).filter(|&c| c != CurvatureMode::Arcs),
             start_heading: Some(request.start_heading),
             goal_heading: Some(request.goal_heading),
             deadline_ms: request.deadline.map(|d| d.as_secs_f64() * 1e3),
@@ -146,12 +154,15 @@ impl From<&Request> for RequestDocument {
 mod tests {
     use super::*;
     use crate::geometry::Point2;
-    use crate::scenario::ViaPoint;
+    use crate::scenario::{CurvatureRate, ViaPoint};
 
     #[test]
     fn a_request_survives_the_wire() {
         let mut request = Request::new(Pose2::new(1.0, 2.0, 0.1), Pose2::new(3.0, 4.0, -0.1));
         request.motion = MotionMode::Forward;
+        request.curvature = CurvatureMode::Continuous(CurvatureRate {
+            max_rate_per_m2: Some(0.5),
+        });
         request.deadline = Some(Duration::from_millis(250));
         let json = serde_json::to_string(&RequestDocument::from(&request)).unwrap();
         let back: RequestDocument = serde_json::from_str(&json).unwrap();

@@ -66,6 +66,20 @@ impl From<Status> for Ended {
 }
 
 impl Planner {
+    /// Finds a path of lines and arcs to any of the goals, past all via points.
+    pub(super) fn find(
+        &mut self,
+        request: &Request,
+        seed: Seed,
+        limits: &mut Limits,
+    ) -> Result<Result<Found, Ended>, PlanError> {
+        if request.via.is_empty() {
+            self.reach(request, seed, limits)
+        } else {
+            self.search_legs(request, seed, limits)
+        }
+    }
+
     /// Runs the configured search for a request without via points; all planners but hybrid A*
     /// plan to its first goal alone.
     pub(super) fn search(

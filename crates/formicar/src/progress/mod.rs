@@ -133,10 +133,7 @@ impl<'a> Limits<'a> {
     /// # Errors
     /// The status to end with: budget, deadline or cancel.
     pub fn step(&mut self) -> Result<(), Status> {
-        if self
-            .budget_steps
-            .is_some_and(|budget| self.n_steps >= budget)
-        {
+        if self.is_exhausted() {
             return Err(Status::BudgetExhausted);
         }
         self.n_steps += 1;
@@ -177,6 +174,22 @@ impl<'a> Limits<'a> {
             n_steps: self.n_steps,
         });
         Ok(())
+    }
+
+    /// Does a part of the work with at most so many steps more, within the same budget.
+    pub fn within<T>(&mut self, n_more: u64, work: impl FnOnce(&mut Self) -> T) -> T {
+        let whole = self.budget_steps;
+        let part = self.n_steps.saturating_add(n_more);
+        self.budget_steps = Some(whole.map_or(part, |budget| budget.min(part)));
+        let result = work(self);
+        self.budget_steps = whole;
+        result
+    }
+
+    /// Whether the budget is used up.
+    pub fn is_exhausted(&self) -> bool {
+        self.budget_steps
+            .is_some_and(|budget| self.n_steps >= budget)
     }
 
     /// The same limits without the budget, for work that is no search step; it shares clock and

@@ -17,12 +17,17 @@ const MIN_OUTLINE_PX: f64 = 9.0;
 /// Arrows of poses are at least this long, and so stand out ahead of small vehicles.
 const MIN_ARROW_PX: f64 = 32.0;
 
+/// Most that the end of an arc drawn for a part of a clothoid is off, pixels.
+const CLOTHOID_GAP_PX: f64 = 0.1;
+
 /// Radius of the ring around the tightest place.
 const RING_PX: f64 = 12.0;
 
 impl Scene {
     /// A drivable path as true arcs: solid forward, dashed in reverse, a dot at each change.
+    /// Clothoids are drawn as arcs that end within a tenth of a pixel of them.
     pub fn curve(&mut self, path: &CurvePath) -> &mut Self {
+        let path = &path.with_arcs(CLOTHOID_GAP_PX / self.view.px_per_m());
         let gears = || path.segments().chunk_by(|a, b| a.direction == b.direction);
         for gear in gears() {
             let casing = Element::path(self.arcs(gear)).pen(palette::PAGE, 5.0);
@@ -196,6 +201,7 @@ impl Scene {
             return Vec::new();
         }
         let spacing_m = (spacing_px / self.view.px_per_m()).max(length_m / MAX_SAMPLES);
+        let path = path.with_arcs(CLOTHOID_GAP_PX / self.view.px_per_m());
         thinned(&path.sample(spacing_m), spacing_m)
     }
 

@@ -79,6 +79,7 @@ impl Request {
     /// As [`Scenario::with_request`].
     pub fn check(&self, obstacles: &ObstacleMap, vehicle: &Vehicle) -> Result<(), ScenarioError> {
         self.check_numbers()?;
+        self.max_curvature_rate_per_m2(vehicle)?;
         let body = Body::new(vehicle);
         check_end(obstacles, &body, Endpoint::Start, &self.start_poses())?;
         for (i, via) in self.via.iter().enumerate() {

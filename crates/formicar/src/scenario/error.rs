@@ -45,6 +45,19 @@ pub enum ScenarioError {
     /// Two ways of saying where to go.
     #[error("goal and goals are both given; hint: put every goal into goals")]
     GoalAndGoals,
+    /// Continuous curvature for a vehicle that does not say how fast its wheels turn.
+    #[error(
+        "continuous curvature needs a rate, and the vehicle has no {missing}; hint: give max_rate_per_m2, or a vehicle with max_steer_rate_rad_per_s, speed_mps and wheelbase_m"
+    )]
+    UnknownCurvatureRate {
+        /// The measure that the vehicle does not have.
+        missing: &'static str,
+    },
+    /// Continuous curvature for a point.
+    #[error(
+        "continuous curvature is for cars, the vehicle is a point; hint: ask for curvature \"arcs\""
+    )]
+    NoCurvature,
     /// A pose off the map.
     #[error("{which} ({x:.3}, {y:.3}) m lies outside the map, which spans ({low_x:.3}, {low_y:.3}) to ({high_x:.3}, {high_y:.3}) m{}", yaw_note(*yaw_rad))]
     OutsideMap {

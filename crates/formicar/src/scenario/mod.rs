@@ -1,11 +1,13 @@
 //! What is asked: a map, a vehicle and a request, checked before anything is planned.
 
 mod check;
+mod curvature;
 mod error;
 mod goals;
 mod request;
 
 pub use check::Scenario;
+pub use curvature::{CurvatureMode, CurvatureRate};
 pub use error::{Endpoint, ErrorCode, ScenarioError};
 pub use goals::ReachedGoal;
 pub use request::{GoalHeading, GoalTolerance, MotionMode, Request, StartHeading, ViaPoint};

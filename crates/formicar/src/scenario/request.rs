@@ -1,5 +1,6 @@
 //! One question to a planner.
 
+use super::CurvatureMode;
 use crate::geometry::{Point2, Pose2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -25,6 +26,8 @@ pub struct Request {
     pub goal_tolerance: GoalTolerance,
     /// Which gears may be used.
     pub motion: MotionMode,
+    /// Whether the curvature may jump.
+    pub curvature: CurvatureMode,
     /// Time after which to give up; it needs an observer with a clock, and alone can make two
     /// runs differ.
     pub deadline: Option<Duration>,
@@ -44,6 +47,7 @@ impl Request {
             goal_heading: GoalHeading::default(),
             goal_tolerance: GoalTolerance::default(),
             motion: MotionMode::default(),
+            curvature: CurvatureMode::default(),
             deadline: None,
             budget_steps: None,
         }

@@ -8,6 +8,7 @@
 
 mod chain;
 mod config;
+mod continuous;
 mod error;
 mod explain;
 mod improve;
@@ -22,6 +23,7 @@ mod two_turning;
 mod wide_arcs;
 
 pub use config::{Corners, SmoothingConfig};
+pub use continuous::{Continuity, NoTransition};
 pub use error::{CornerProblem, SmoothingError};
 pub use improve::{ImproveConfig, ImproveProblem, Improved, Improver};
 pub use redundant_nodes::{RedundantNodes, remove_redundant_nodes};

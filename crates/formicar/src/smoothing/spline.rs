@@ -95,6 +95,7 @@ fn driven(ground: &Ground, request: &Request, arcs: &[(Pose2, Arc)]) -> CurvePat
     let segment = |(start, arc): &(Pose2, Arc)| CurveSegment {
         start: frame.to_world(*start).wrapped(),
         curvature_per_m: arc.curvature_per_m,
+        curvature_rate_per_m2: 0.0,
         length_m: arc.length_m(),
         direction: Direction::Forward,
     };

@@ -224,6 +224,7 @@ impl Run {
         self.lengthen(CurveSegment {
             start,
             curvature_per_m: self.state.steer_rad.tan() / self.axles.wheelbase_m,
+            curvature_rate_per_m2: 0.0,
             length_m,
             direction,
         });

@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 /// Turns slighter than this have no center to measure angles about, 1/m.
 const STRAIGHT_PER_M: f64 = 1e-9;
 
-/// Lines and arcs in one gear, all driven forward: in reverse the poses face the other way. Before
+/// Lines and arcs in one gear (clothoids cut into arcs), all driven forward: in reverse the poses face the other way. Before
 /// its begin and beyond its end the first and the last line or arc go on.
 #[derive(Clone, Debug)]
 pub(super) struct Stretch {
@@ -33,9 +33,13 @@ pub(super) fn faced(pose: Pose2, direction: Direction) -> Pose2 {
     }
 }
 
+/// Arcs that stand for a clothoid end at most so far from it, metres.
+const CLOTHOID_GAP_M: f64 = 0.1 * JOINT_TOLERANCE;
+
 /// The stretches of a path; none where it has no length.
 pub(super) fn stretches(path: &CurvePath) -> Result<Vec<Stretch>, TrackingError> {
     check(path)?;
+    let path = path.with_arcs(CLOTHOID_GAP_M);
     let segments: Vec<_> = path
         .segments()
         .iter()
@@ -51,7 +55,7 @@ fn check(path: &CurvePath) -> Result<(), TrackingError> {
         return Err(TrackingError::NotFinite { index: 0 });
     }
     for (index, segment) in path.segments().iter().enumerate() {
-        let numbers = segment.curvature_per_m * segment.length_m;
+        let numbers = segment.curvature_per_m * segment.length_m + segment.end_curvature_per_m();
         if !(segment.start.is_finite() && numbers.is_finite() && segment.length_m >= 0.0) {
             return Err(TrackingError::NotFinite { index });
         }
@@ -228,6 +232,7 @@ mod tests {
         let segment = |x, length_m| CurveSegment {
             start: Pose2::new(x, 0.0, 0.0),
             curvature_per_m: 0.0,
+            curvature_rate_per_m2: 0.0,
             length_m,
             direction: Direction::Forward,
         };

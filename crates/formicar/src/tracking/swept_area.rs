@@ -71,7 +71,8 @@ fn pieces(path: &CurvePath, side_m: f64, reach_m: f64) -> Vec<[Pose2; 2]> {
     let mut from = path.start();
     let (mut length_m, mut turn_rad, mut gear) = (0.0, 0.0, None);
     for segment in path.segments() {
-        let whole_rad = (segment.curvature_per_m * segment.length_m).abs();
+        // On a clothoid the tighter end stands for the whole.
+        let whole_rad = segment.max_abs_curvature_per_m() * segment.length_m;
         let mut n_parts = 1.0;
         while !stays(segment.length_m / n_parts, whole_rad / n_parts) && n_parts < 1e6 {
             n_parts *= 2.0;

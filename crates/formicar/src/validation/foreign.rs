@@ -158,6 +158,7 @@ fn between(from: Pose2, to: Pose2, direction: Direction) -> Vec<CurveSegment> {
         return vec![CurveSegment {
             start: Pose2::at(from.position(), wrap_angle(step.angle() + against)),
             curvature_per_m: 0.0,
+            curvature_rate_per_m2: 0.0,
             length_m,
             direction,
         }];
@@ -166,6 +167,7 @@ fn between(from: Pose2, to: Pose2, direction: Direction) -> Vec<CurveSegment> {
         start,
         // The heading turns by direction * curvature * length, with the direction of motion.
         curvature_per_m: arc.curvature_per_m * direction.sign(),
+        curvature_rate_per_m2: 0.0,
         length_m: arc.length_m(),
         direction,
     };

@@ -1,7 +1,7 @@
 //! One verdict from all checks.
 
 use super::report::{Report, Violation, ViolationKind};
-use super::{CURVATURE_TOLERANCE, ends, shape, swept, via};
+use super::{CURVATURE_TOLERANCE, continuity, ends, shape, swept, via};
 use crate::collision::ObstacleMap;
 use crate::geometry::Pose2;
 use crate::path::CurvePath;
@@ -31,6 +31,7 @@ pub fn judge(
     report.goal_error_rad = ends.reached.error_rad;
     report.via_s_m = passed.s_m;
     let violations = ends.violations.into_iter().chain(passed.missed);
+    let violations = violations.chain(continuity::violations(vehicle, request, path));
     finish(report, violations.collect())
 }
 
@@ -53,6 +54,8 @@ pub fn judge_path(
         tightest: swept.tightest,
         tightest_s_m: swept.tightest_s_m,
         max_curvature_per_m: shape::max_curvature_per_m(path),
+        max_curvature_rate_per_m2: continuity::max_rate_per_m2(path),
+        is_curvature_continuous: continuity::is_continuous(path),
         ..report
     };
     let mut violations = shape::check(vehicle, path, curvature_slack);
@@ -68,6 +71,8 @@ fn blank(obstacles: &ObstacleMap, vehicle: &Vehicle, path: &CurvePath) -> Report
         tightest: path.start(),
         tightest_s_m: 0.0,
         max_curvature_per_m: 0.0,
+        max_curvature_rate_per_m2: 0.0,
+        is_curvature_continuous: true,
         goal_index: None,
         goal_error_m: 0.0,
         goal_error_rad: 0.0,
@@ -94,6 +99,9 @@ fn path_hash(path: &CurvePath) -> u128 {
     };
     let segments = path.segments().iter().flat_map(|s| {
         let [x, y, heading] = pose(s.start);
+        // The rate stands where there is one: chains of arcs keep the hash that they had before
+        // there were clothoids.
+        let rate = Some(s.curvature_rate_per_m2).filter(|&rate| rate != 0.0);
         [
             x,
             y,
@@ -102,6 +110,8 @@ fn path_hash(path: &CurvePath) -> u128 {
             s.length_m,
             s.direction.sign(),
         ]
+        .into_iter()
+        .chain(rate)
     });
     let bytes: Vec<u8> = pose(path.start())
         .into_iter()

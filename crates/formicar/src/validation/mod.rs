@@ -4,8 +4,11 @@
 //! every lethal cell square and from the border, its curvature stays within the vehicle's limit,
 //! its segments join, and it goes from start to a goal past all
 //! via points in the gears that the request allows. Only a
-//! valid path gets a [`Certificate`], and only the judge makes one.
+//! valid path gets a [`Certificate`], and only the judge makes one. Where the request asks for
+//! continuous curvature, the curvature of a valid path jumps nowhere inside one gear and changes no
+//! faster than was asked.
 
+mod continuity;
 mod ends;
 mod foreign;
 mod judge;
@@ -24,5 +27,5 @@ pub use samples::{Samples, SamplesError};
 /// How far two segments may miss each other: metres, and radians.
 pub const JOINT_TOLERANCE: f64 = 1e-6;
 
-/// How far, relative to the limit, a curvature may exceed it.
+/// How far, relative to the limit, a curvature or its rate of change may exceed it.
 pub const CURVATURE_TOLERANCE: f64 = 1e-9;

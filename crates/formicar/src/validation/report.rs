@@ -19,6 +19,12 @@ pub struct Report {
     pub tightest_s_m: f64,
     /// Largest absolute curvature.
     pub max_curvature_per_m: f64,
+    /// Fastest change of the curvature per driven metre along a segment; 0 on lines and arcs, whose
+    /// jumps are not counted.
+    pub max_curvature_rate_per_m2: f64,
+    /// Whether the curvature jumps nowhere inside one gear. Where the vehicle stands, at a change
+    /// of gear and at both ends, its wheels may turn.
+    pub is_curvature_continuous: bool,
     /// Which goal the path ends at, or comes nearest to: its place among the request's goals,
     /// the first is 0; null where no goal was given.
     pub goal_index: Option<usize>,
@@ -67,6 +73,8 @@ pub enum ViolationKind {
     LeavesMap,
     /// The curvature exceeds the vehicle's limit.
     Curvature,
+    /// The curvature jumps or changes too fast, on a path that was asked to be continuous.
+    CurvatureChange,
     /// Two segments do not join.
     Discontinuity,
     /// The path does not begin at the start.

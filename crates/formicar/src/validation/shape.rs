@@ -17,8 +17,9 @@ pub(super) fn malformed(path: &CurvePath) -> Vec<Violation> {
     let bad = |s: &CurveSegment| {
         !(s.start.is_finite()
             && (0.0..=MAX_LENGTH_M).contains(&s.length_m)
-            && (s.curvature_per_m * s.length_m).abs() <= MAX_TURN_RAD
-            && s.curvature_per_m.is_finite())
+            && s.max_abs_curvature_per_m() * s.length_m <= MAX_TURN_RAD
+            && s.curvature_per_m.is_finite()
+            && s.curvature_rate_per_m2.is_finite())
     };
     let start = (!path.start().is_finite()).then(|| {
         malformation(
@@ -29,8 +30,8 @@ pub(super) fn malformed(path: &CurvePath) -> Vec<Violation> {
     });
     let segments = path.segments().iter().enumerate().filter(|(_, s)| bad(s)).map(|(i, s)| {
         let message = format!(
-            "segment {i} has length {} m, curvature {} 1/m and start ({}, {}, {}); all must be finite, the length in 0 to {MAX_LENGTH_M} m, the turn at most {MAX_TURN_RAD} rad",
-            s.length_m, s.curvature_per_m, s.start.x, s.start.y, s.start.heading
+            "segment {i} has length {} m, curvature {} 1/m, which changes by {} 1/m^2, and start ({}, {}, {}); all must be finite, the length in 0 to {MAX_LENGTH_M} m, the turn at most {MAX_TURN_RAD} rad",
+            s.length_m, s.curvature_per_m, s.curvature_rate_per_m2, s.start.x, s.start.y, s.start.heading
         );
         malformation(s.start, s.length_m, message)
     });
@@ -66,7 +67,7 @@ pub(super) fn check(vehicle: &Vehicle, path: &CurvePath, curvature_slack: f64) -
 pub(super) fn max_curvature_per_m(path: &CurvePath) -> f64 {
     path.segments()
         .iter()
-        .fold(0.0, |most, s| s.curvature_per_m.abs().max(most))
+        .fold(0.0, |most, s| s.max_abs_curvature_per_m().max(most))
 }
 
 fn joint(vehicle: &Vehicle, expected: Pose2, found: Pose2, s_m: f64) -> Option<Violation> {
@@ -97,7 +98,7 @@ fn joint(vehicle: &Vehicle, expected: Pose2, found: Pose2, s_m: f64) -> Option<V
 
 fn curvature(vehicle: &Vehicle, segment: &CurveSegment, s_m: f64, slack: f64) -> Option<Violation> {
     let limit = vehicle.max_curvature_per_m();
-    let amount = segment.curvature_per_m.abs();
+    let amount = segment.max_abs_curvature_per_m();
     if amount <= limit * (1.0 + slack) || segment.length_m == 0.0 {
         return None;
     }

@@ -1,7 +1,7 @@
 //! The swept body against obstacles and border: tightest pieces first.
 
 use super::report::{Violation, ViolationKind};
-use crate::collision::{Body, Drive, MIN_CLEARANCE_M, ObstacleMap, Overlap};
+use crate::collision::{Body, ClothoidDrive, Drive, MIN_CLEARANCE_M, ObstacleMap, Overlap};
 use crate::geometry::Pose2;
 use crate::numeric::golden_section;
 use crate::path::CurvePath;
@@ -15,11 +15,35 @@ pub(super) struct Swept {
     pub(super) violations: Vec<Violation>,
 }
 
+/// Most that a body point on a clothoid may be off the arc that is looked at in its place, metres.
+/// The deviation is taken off the clearance, which is then a lower bound, too low by less than
+/// twice this.
+const CLOTHOID_TOLERANCE_M: f64 = 5e-5;
+
 /// A piece of the path with a lower bound of its clearance.
 struct Piece {
     drive: Drive,
+    /// How far the path's body points may be from those of the drive, at most.
+    deviation_m: f64,
     s_m: f64,
     bound_m: f64,
+}
+
+impl Piece {
+    /// A lower bound of the clearance, metres, exact on lines and arcs where it is below `limit_m`.
+    fn clearance_m(&self, obstacles: &ObstacleMap, body: &Body, limit_m: f64) -> f64 {
+        let limit_m = limit_m + self.deviation_m;
+        (obstacles.drive_clearance_m(body, &self.drive, limit_m) - self.deviation_m).max(0.0)
+    }
+
+    /// Whether it certainly touches nothing. What a point may touch, and what a body may not, is
+    /// the collision module's to say; near a clothoid nothing may be touched.
+    fn is_free(&self, obstacles: &ObstacleMap, body: &Body) -> bool {
+        if self.deviation_m == 0.0 {
+            return obstacles.is_free(body, &self.drive);
+        }
+        self.clearance_m(obstacles, body, 2.0 * MIN_CLEARANCE_M) > MIN_CLEARANCE_M
+    }
 }
 
 pub(super) fn check(obstacles: &ObstacleMap, vehicle: &Vehicle, path: &CurvePath) -> Swept {
@@ -33,13 +57,11 @@ pub(super) fn check(obstacles: &ObstacleMap, vehicle: &Vehicle, path: &CurvePath
         if piece.bound_m >= least.max(2.0 * MIN_CLEARANCE_M) {
             break;
         }
-        let clearance =
-            obstacles.drive_clearance_m(&body, &piece.drive, least.max(2.0 * MIN_CLEARANCE_M));
+        let clearance = piece.clearance_m(obstacles, &body, least.max(2.0 * MIN_CLEARANCE_M));
         if clearance < least {
             (least, tightest) = (clearance, i);
         }
-        // What a point may touch, and what a body may not, is the collision module's to say.
-        if clearance <= 2.0 * MIN_CLEARANCE_M && !obstacles.is_free(&body, &piece.drive) {
+        if clearance <= 2.0 * MIN_CLEARANCE_M && !piece.is_free(obstacles, &body) {
             touching.push(piece);
         }
     }
@@ -55,31 +77,35 @@ pub(super) fn check(obstacles: &ObstacleMap, vehicle: &Vehicle, path: &CurvePath
 
 fn cut(obstacles: &ObstacleMap, body: &Body, path: &CurvePath) -> Vec<Piece> {
     let frame = obstacles.frame();
-    let piece = |drive: Drive, s_m| Piece {
-        bound_m: obstacles.clearance_bound_m(body, &drive),
+    let piece = |drive: Drive, deviation_m: f64, s_m: f64| Piece {
+        bound_m: obstacles.clearance_bound_m(body, &drive) - deviation_m,
         drive,
+        deviation_m,
         s_m,
     };
     let mut s_m = 0.0;
     let mut pieces = Vec::new();
     for segment in path.segments() {
-        let drive = Drive {
+        let clothoid = ClothoidDrive {
             start: frame.to_grid(segment.start),
             curvature_per_m: segment.curvature_per_m,
+            curvature_rate_per_m2: segment.curvature_rate_per_m2,
             signed_length_m: segment.direction.sign() * segment.length_m,
         };
-        let n = drive.n_pieces(body);
-        let step = segment.length_m / n as f64;
-        pieces.extend(
-            drive
-                .pieces(n)
-                .enumerate()
-                .map(|(i, part)| piece(part, s_m + step * i as f64)),
-        );
+        let arcs = clothoid.arcs(body, CLOTHOID_TOLERANCE_M);
+        let arc_m = segment.length_m / arcs.len() as f64;
+        for (i, arc) in arcs.iter().enumerate() {
+            let n = arc.drive.n_pieces(body);
+            let (begin_m, step_m) = (s_m + arc_m * i as f64, arc_m / n as f64);
+            let parts = arc.drive.pieces(n).enumerate();
+            pieces.extend(
+                parts.map(|(k, part)| piece(part, arc.deviation_m, begin_m + step_m * k as f64)),
+            );
+        }
         s_m += segment.length_m;
     }
     if pieces.is_empty() {
-        pieces.push(piece(Drive::at(frame.to_grid(path.start())), 0.0));
+        pieces.push(piece(Drive::at(frame.to_grid(path.start())), 0.0, 0.0));
     }
     pieces
 }

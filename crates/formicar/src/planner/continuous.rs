@@ -1,0 +1,132 @@
+//! Continuous curvature, where the request asks for it: transitions in the path that was found, or
+//! in one planned for a gentler vehicle, whose turns leave room for them.
+
+use super::run::{Ended, Found};
+use super::{PlanError, Planner};
+use crate::numeric::Seed;
+use crate::progress::{Limits, Status};
+use crate::scenario::Request;
+use crate::smoothing::{Continuity, NoTransition};
+use crate::vehicle::{Vehicle, VehicleError, VehicleParameters};
+
+/// A vehicle that is planned for in the place of the true one.
+struct Gentler {
+    /// Its turning radius by that of the true one.
+    radii: f64,
+    /// Its safety margin beyond that of the true one, by the width of the true one.
+    margin_widths: f64,
+}
+
+/// Steps that each further search may take: so many, and a share of those of the first. A gentler
+/// vehicle may have no way at all, and the proof of that takes long.
+const STEPS_MORE: u64 = 5_000;
+const SHARE_MORE: u64 = 2;
+
+/// Tried in this order where transitions do not fit into the first path.
+const GENTLER: [Gentler; 5] = [
+    Gentler {
+        radii: 1.25,
+        margin_widths: 0.0,
+    },
+    Gentler {
+        radii: 1.25,
+        margin_widths: 0.1,
+    },
+    Gentler {
+        radii: 1.6,
+        margin_widths: 0.0,
+    },
+    Gentler {
+        radii: 1.0,
+        margin_widths: 0.15,
+    },
+    Gentler {
+        radii: 2.2,
+        margin_widths: 0.05,
+    },
+];
+
+impl Planner {
+    /// The path with continuous curvature, where the request asks for it. Further searches count
+    /// against the same limits.
+    pub(super) fn made_continuous(
+        &self,
+        request: &Request,
+        seed: Seed,
+        found: Found,
+        limits: &mut Limits,
+    ) -> Result<Result<Found, Ended>, PlanError> {
+        let Some(max_rate_per_m2) = request.max_curvature_rate_per_m2(&self.vehicle)? else {
+            return Ok(Ok(found));
+        };
+        let continuity = Continuity {
+            obstacles: &self.obstacles,
+            vehicle: &self.vehicle,
+            max_rate_per_m2,
+        };
+        let first = match continuity.apply(&found.path) {
+            Ok(path) => return Ok(Ok(Found { path, ..found })),
+            Err(problem) => problem,
+        };
+        let n_more = STEPS_MORE + SHARE_MORE * limits.n_steps();
+        for gentler in &GENTLER {
+            let Some(mut planner) = self.gentler(gentler, request) else {
+                continue;
+            };
+            let searched = limits.within(n_more, |limits| planner.find(request, seed, limits));
+            match searched? {
+                Ok(other) => {
+                    if let Ok(path) = continuity.apply(&other.path) {
+                        return Ok(Ok(Found { path, ..other }));
+                    }
+                }
+                Err(ended) if was_stopped(ended.status, limits) => return Ok(Err(ended)),
+                Err(_) => {}
+            }
+        }
+        Ok(Err(self.no_transition(&first, found)))
+    }
+
+    /// This planner for a gentler vehicle; none where that does not fit at an end.
+    fn gentler(&self, gentler: &Gentler, request: &Request) -> Option<Self> {
+        let vehicle = gentler.of(&self.vehicle).ok()?;
+        request.check(&self.obstacles, &vehicle).ok()?;
+        Some(Self {
+            vehicle,
+            cells: None,
+            axle_ground: None,
+            drive_ground: None,
+            ..self.clone()
+        })
+    }
+
+    fn no_transition(&self, problem: &NoTransition, found: Found) -> Ended {
+        let reason = format!(
+            "{} found a path, but {problem}; paths for gentler turns did no better; hint: allow a larger rate or drive more slowly, or give the vehicle more room",
+            self.config.planner.name()
+        );
+        Ended::because(Status::Infeasible, reason, found.stages)
+    }
+}
+
+/// Whether a search was stopped from outside, and not by its own share of steps.
+fn was_stopped(status: Status, limits: &Limits) -> bool {
+    match status {
+        Status::TimedOut | Status::Cancelled => true,
+        Status::BudgetExhausted => limits.is_exhausted(),
+        _ => false,
+    }
+}
+
+impl Gentler {
+    fn of(&self, vehicle: &Vehicle) -> Result<Vehicle, VehicleError> {
+        let margin_m = vehicle.parameters().safety_margin_m.unwrap_or(0.0);
+        Vehicle::new(VehicleParameters {
+            min_turning_radius_m: Some(self.radii * vehicle.min_turning_radius_m()),
+            max_steer_rad: None,
+            max_steer_deg: None,
+            safety_margin_m: Some(margin_m + self.margin_widths * vehicle.width_m()),
+            ..vehicle.parameters().clone()
+        })
+    }
+}

@@ -1,0 +1,191 @@
+//! From a chain of lines and arcs to one whose curvature is continuous.
+//!
+//! The path is cut at stations: the middles of its segments, and where the vehicle stands. Between
+//! two stations, transitions take the place of joints, and the least change of curvatures and
+//! lengths is sought with which the chain meets the second station exactly (`fit`). A part that
+//! cannot be done, or touches something, is tried with more of the path before it. Where the
+//! vehicle stands its wheels may turn, so that curvatures are free there, and a part that reaches
+//! over a change of gear may move it.
+
+mod chain;
+mod fit;
+mod stations;
+
+use crate::collision::{Body, ClothoidDrive, MIN_CLEARANCE_M, ObstacleMap};
+use crate::geometry::Pose2;
+use crate::path::{CurvePath, CurveSegment, Direction};
+use crate::vehicle::Vehicle;
+use chain::Chain;
+use fit::{Limits, fit};
+use stations::{Station, driven, first_chain, stations};
+use thiserror::Error;
+
+/// Most stations that one part of the path reaches over.
+const MAX_SPAN: usize = 14;
+
+/// Deviations with which a clothoid is checked, metres: most are free with the first.
+const TOLERANCES_M: [f64; 2] = [1e-3, 5e-5];
+
+/// The ground and the limits of a continuous path.
+#[derive(Clone, Debug)]
+pub struct Continuity<'a> {
+    /// The map.
+    pub obstacles: &'a ObstacleMap,
+    /// The vehicle.
+    pub vehicle: &'a Vehicle,
+    /// Fastest change of the curvature per driven metre, 1/m^2, above 0.
+    pub max_rate_per_m2: f64,
+}
+
+/// Where a path cannot be made continuous.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error(
+    "no transitions of curvature that change by at most {max_rate_per_m2:.4} 1/m^2 fit beyond ({x:.3}, {y:.3}), s = {s_m:.3} m{}",
+    if *.touches { ": those tried touch obstacles" } else { ": the arcs are too short or too tight" }
+)]
+pub struct NoTransition {
+    /// The last place that was reached, metres.
+    pub x: f64,
+    /// The same.
+    pub y: f64,
+    /// Arc length there.
+    pub s_m: f64,
+    /// The rate that was asked for.
+    pub max_rate_per_m2: f64,
+    /// Whether transitions were found that touch something.
+    pub touches: bool,
+}
+
+/// A part of the result, from a station before.
+#[derive(Clone)]
+struct Way {
+    from: usize,
+    chain: Chain,
+}
+
+impl Continuity<'_> {
+    /// A path with the same first and last pose, whose curvature is continuous inside each gear and
+    /// changes no faster than the rate. World coordinates; lines and arcs are expected.
+    ///
+    /// # Errors
+    /// The place beyond which no transitions fit.
+    pub fn apply(&self, path: &CurvePath) -> Result<CurvePath, NoTransition> {
+        let segments = driven(path.segments());
+        let stations = stations(&segments);
+        if stations.is_empty() {
+            return Ok(path.clone());
+        }
+        let body = Body::new(self.vehicle);
+        let mut ways: Vec<Option<Way>> = vec![None; stations.len()];
+        let mut touches = false;
+        for to in 1..stations.len() {
+            let reached = |from: &usize| *from == 0 || ways[*from].is_some();
+            let mut froms = (to.saturating_sub(MAX_SPAN)..to).rev().filter(reached);
+            ways[to] = froms.find_map(|from| {
+                let ends = [&stations[from], &stations[to]];
+                let chain = self.between(&segments, ends)?;
+                let is_free = self.is_free(&body, &chain, ends[0].pose);
+                touches |= !is_free;
+                is_free.then_some(Way { from, chain })
+            });
+        }
+        assembled(&stations, &ways).ok_or_else(|| self.failure(&stations, &ways, touches))
+    }
+
+    fn limits(&self) -> Limits {
+        Limits {
+            max_curvature_per_m: self.vehicle.max_curvature_per_m(),
+            max_rate_per_m2: self.max_rate_per_m2,
+        }
+    }
+
+    fn between(&self, segments: &[CurveSegment], ends: [&Station; 2]) -> Option<Chain> {
+        let mut chain = first_chain(segments, ends, self.limits());
+        let target = ends[0].pose.relative(ends[1].pose);
+        fit(&mut chain, target, self.limits()).then_some(chain)
+    }
+
+    /// Whether the body touches nothing along a chain.
+    fn is_free(&self, body: &Body, chain: &Chain, start: Pose2) -> bool {
+        let frame = self.obstacles.frame();
+        let poses = chain.poses(start);
+        chain.ramps.iter().zip(poses).all(|(ramp, start)| {
+            let [from, to] = chain.curvatures(ramp);
+            let drive = ClothoidDrive {
+                start: frame.to_grid(start),
+                curvature_per_m: from,
+                curvature_rate_per_m2: (to - from) / ramp.length_m,
+                signed_length_m: ramp.sign * ramp.length_m,
+            };
+            let stays = |tolerance_m: f64| {
+                drive.arcs(body, tolerance_m).iter().all(|arc| {
+                    let enough_m = arc.deviation_m + 2.0 * MIN_CLEARANCE_M;
+                    let clearance_m = self.obstacles.drive_clearance_m(body, &arc.drive, enough_m);
+                    clearance_m >= enough_m
+                })
+            };
+            TOLERANCES_M.into_iter().any(stays)
+        })
+    }
+
+    fn failure(&self, stations: &[Station], ways: &[Option<Way>], touches: bool) -> NoTransition {
+        let last = (0..stations.len()).rev().find(|&i| ways[i].is_some());
+        let station = &stations[last.unwrap_or(0)];
+        NoTransition {
+            x: station.pose.x,
+            y: station.pose.y,
+            s_m: station.s_m,
+            max_rate_per_m2: self.max_rate_per_m2,
+            touches,
+        }
+    }
+}
+
+/// The path along the ways that lead to the last station.
+fn assembled(stations: &[Station], ways: &[Option<Way>]) -> Option<CurvePath> {
+    let mut parts = Vec::new();
+    let mut to = stations.len() - 1;
+    while to > 0 {
+        let way = ways[to].as_ref()?;
+        parts.push(way);
+        to = way.from;
+    }
+    let mut segments: Vec<CurveSegment> = Vec::new();
+    for way in parts.into_iter().rev() {
+        for segment in segments_of(&way.chain, stations[way.from].pose) {
+            match segments.last_mut() {
+                Some(last) if goes_on(last, &segment) => last.length_m += segment.length_m,
+                _ => segments.push(segment),
+            }
+        }
+    }
+    Some(CurvePath::from_segments(stations[0].pose, segments))
+}
+
+fn goes_on(last: &CurveSegment, next: &CurveSegment) -> bool {
+    let rates = [last.curvature_rate_per_m2, next.curvature_rate_per_m2];
+    rates == [0.0, 0.0]
+        && last.curvature_per_m == next.curvature_per_m
+        && last.direction == next.direction
+}
+
+fn segments_of(chain: &Chain, start: Pose2) -> impl Iterator<Item = CurveSegment> + '_ {
+    chain
+        .ramps
+        .iter()
+        .zip(chain.poses(start))
+        .map(|(ramp, start)| {
+            let [from, to] = chain.curvatures(ramp);
+            CurveSegment {
+                start,
+                curvature_per_m: from,
+                curvature_rate_per_m2: (to - from) / ramp.length_m,
+                length_m: ramp.length_m,
+                direction: if ramp.sign < 0.0 {
+                    Direction::Reverse
+                } else {
+                    Direction::Forward
+                },
+            }
+        })
+}
