@@ -170,7 +170,7 @@ pub(crate) struct PlanArgs {
     pub(crate) goal_tolerance: Option<GoalTolerance>,
 
     /// Map whose graded cells tell where the vehicle should rather not drive, or `map`: the map
-    /// itself. A preference only; hybrid-astar heeds it.
+    /// itself. A preference only; formicar and hybrid-astar heed it.
     #[arg(long, value_name = "F|map", value_hint = ValueHint::FilePath)]
     pub(crate) soft_costs: Option<String>,
 
@@ -179,7 +179,7 @@ pub(crate) struct PlanArgs {
           value_parser = values::not_negative, allow_hyphen_values = true)]
     pub(crate) soft_weight: Option<f64>,
 
-    /// Planner (see `list planners`); `hybrid-astar` by default, `astar` for a point.
+    /// Planner (see `list planners`); `formicar` by default, `astar` for a point.
     #[arg(long, value_name = "NAME")]
     pub(crate) planner: Option<PlannerName>,
 

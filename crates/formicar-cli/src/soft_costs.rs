@@ -24,7 +24,7 @@ pub(crate) fn load(
     };
     if !planner.heeds_soft_costs() {
         bail!(
-            "--soft-costs: {} does not weigh the ground; hint: --planner hybrid-astar",
+            "--soft-costs: {} does not weigh the ground; hint: --planner formicar",
             planner.name()
         );
     }

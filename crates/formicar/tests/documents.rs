@@ -6,13 +6,15 @@
 )]
 
 use formicar::colony::chord::ChordConfig;
+use formicar::colony::drive::DriveConfig;
 use formicar::colony::{
     ColonyConfig, corridor, dead_end, deposit, evaporation, heuristic, initial, limits, transition,
 };
 use formicar::evolution::EvolutionConfig;
 use formicar::layers::{LayersConfig, MAX_EXPANSION_CELLS};
+use formicar::objective::DriveCost;
 use formicar::planner::{HybridAstarConfig, ImprovedAstarConfig, PlannerConfig, PlannerName};
-use formicar::smoothing::SmoothingConfig;
+use formicar::smoothing::{ImproveConfig, SmoothingConfig};
 use formicar::tracking::{PurePursuit, Stanley, StartOffset, TrackingConfig};
 use schemars::{JsonSchema, schema_for};
 use serde::Serialize;
@@ -105,6 +107,42 @@ fn the_table_of_hybrid_astar_has_every_parameter() {
     }
     let n_rows = page.lines().filter(|l| l.starts_with("| `")).count();
     assert_eq!(n_rows, defaults.len(), "rows without a parameter");
+}
+
+/// The rows of a table of parameters: keys of inner sections behind their section's name.
+fn rows(defaults: &Value, schema: &Value, before: &str) -> Vec<String> {
+    let fields = defaults.as_object().unwrap().iter();
+    let row = |(key, default): (&String, &Value)| {
+        let field = &schema["properties"][key];
+        if default.is_object() {
+            let name = field["$ref"].as_str().unwrap().rsplit('/').next().unwrap();
+            let inner = &schema["$defs"][name];
+            return rows(default, inner, &format!("{key}."));
+        }
+        let limit = |which: &str| field[which].as_f64().unwrap();
+        let (low, high) = (limit("minimum"), limit("maximum"));
+        vec![format!("| `{before}{key}` | {default} | {low} to {high} |")]
+    };
+    fields.flat_map(row).collect()
+}
+
+#[test]
+fn the_tables_of_the_default_planner_have_every_parameter() {
+    let Some(root) = project() else { return };
+    let page = fs::read_to_string(root.join("docs/src/formicar.md")).unwrap();
+    let mut wanted = Vec::new();
+    let drive = serde_json::to_value(DriveConfig::default()).unwrap();
+    let cost = serde_json::to_value(DriveCost::default()).unwrap();
+    let schema = |schema: schemars::Schema, value: Value| rows(&value, &schema.to_value(), "");
+    wanted.extend(schema(schema_for!(DriveConfig), drive));
+    wanted.extend(schema(schema_for!(DriveCost), cost));
+    let improve = serde_json::to_value(ImproveConfig::default()).unwrap();
+    wanted.extend(schema(schema_for!(ImproveConfig), improve));
+    for row in &wanted {
+        assert!(page.contains(row), "no row {row}");
+    }
+    let n_rows = page.lines().filter(|l| l.starts_with("| `")).count();
+    assert_eq!(n_rows, wanted.len(), "rows without a parameter");
 }
 
 #[test]

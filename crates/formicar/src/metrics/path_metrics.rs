@@ -1,7 +1,7 @@
 //! Exact metrics, from the segments of a path.
 
 use super::SteeringShare;
-use crate::collision::{Body, ObstacleMap};
+use crate::collision::{Body, Drive, ObstacleMap};
 use crate::geometry::{Pose2, angle_difference};
 use crate::path::{CurvePath, CurveSegment, SpeedLimits, SpeedProfile};
 use crate::vehicle::Vehicle;
@@ -24,21 +24,35 @@ impl ClearanceSummary {
     /// The judge's least clearance with a mean sampled at most 0.05 m apart, never below it.
     pub fn new(obstacles: &ObstacleMap, vehicle: &Vehicle, path: &CurvePath, min_m: f64) -> Self {
         let body = Body::new(vehicle);
-        let clearance = |pose: Pose2| obstacles.clearance_m(&body, obstacles.frame().to_grid(pose));
+        let clearance = |pose: Pose2, limit_m: f64| {
+            let here = Drive::at(obstacles.frame().to_grid(pose));
+            obstacles.drive_clearance_m(&body, &here, limit_m)
+        };
+        // From one sample to the next no point of the body moves farther than this, and the
+        // clearance grows by no more: what is looked for lies near.
+        let curvatures = path
+            .segments()
+            .iter()
+            .map(CurveSegment::max_abs_curvature_per_m);
+        let lever = 1.0 + curvatures.fold(0.0, f64::max) * body.reach_m();
+        let mut last_m = f64::INFINITY;
         let mut clearance_integral = 0.0;
         for segment in path.segments() {
             // Mid points of equal steps: each stands for as much arc length as any other.
             let n_steps = (segment.length_m / Self::SPACING_M).ceil().max(1.0);
             let step_m = segment.length_m / n_steps;
-            let at_steps = (0..n_steps as usize)
-                .map(|i| clearance(segment.pose_at((i as f64 + 0.5) * step_m)));
+            let at_steps = (0..n_steps as usize).map(|i| {
+                let pose = segment.pose_at((i as f64 + 0.5) * step_m);
+                last_m = clearance(pose, last_m + lever * Self::SPACING_M);
+                last_m
+            });
             clearance_integral += at_steps.sum::<f64>() * step_m;
         }
         let length_m = path.length_m();
         let mean_m = if length_m > 0.0 {
             clearance_integral / length_m
         } else {
-            clearance(path.start())
+            clearance(path.start(), f64::INFINITY)
         };
         let mean_m = mean_m.max(min_m);
         Self { min_m, mean_m }

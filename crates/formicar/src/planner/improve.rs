@@ -18,9 +18,11 @@ const WORTH_RATIO: f64 = 1.3;
 const GLANCE_TRIES: u64 = 300;
 /// and how much dearer than the best path it may then be to be improved further.
 const PROMISING_RATIO: f64 = 1.03;
-/// Ants look for other ways around where the best path costs at least so many times the way along
-/// the goal field, which knows no turns.
+/// Where the best path costs at least so many times the way along the goal field, which knows no
+/// turns, there may be better ways around: ants look for them,
 const GOOD_RATIO: f64 = 1.25;
+/// and hybrid A* has so many times its steps.
+const MORE_STEPS: u64 = 4;
 
 impl Planner {
     /// Finds a path and improves it.
@@ -116,18 +118,19 @@ impl Best<'_> {
         else {
             return Ok(());
         };
+        let start = problem.starts().first().map(|pose| pose.position());
+        let least_m = start.and_then(|start| guide.estimate_m(&problem, start));
+        let is_good = |cost_m: f64| least_m.is_some_and(|least_m| cost_m < GOOD_RATIO * least_m);
         if let Some(mut hybrid) = hybrid {
-            match hybrid.run(&mut guide, rules.config.second_steps, limits) {
+            let doubts = if is_good(self.cost_m) { 1 } else { MORE_STEPS };
+            match hybrid.run(&mut guide, doubts * rules.config.second_steps, limits) {
                 Ok(Some(path)) => self.offer(path, limits)?,
                 Ok(None) | Err(Status::NoPath) => {}
                 Err(status) => return Err(status),
             }
         }
-        let start = problem.starts().first().map(|pose| pose.position());
-        let least_m = start.and_then(|start| guide.estimate_m(&problem, start));
-        let is_good = least_m.is_some_and(|least_m| self.cost_m < GOOD_RATIO * least_m);
         let sends_none = rules.config.n_stalled == 0 || rules.config.n_ants == 0;
-        if is_good || sends_none || problem.side() == Side::Goal {
+        if is_good(self.cost_m) || sends_none || problem.side() == Side::Goal {
             return Ok(());
         }
         let ants = (rules.seed, rules.n_threads);
