@@ -30,7 +30,7 @@ fn the_answer_has_the_promised_fields() {
     assert_eq!(answer["reason"], Value::Null);
     assert_eq!(
         (&answer["planner"], &answer["seed"]),
-        (&json!("hybrid-astar"), &json!(7))
+        (&json!("formicar"), &json!(7))
     );
     let certificate = &answer["certificate"];
     assert_eq!(certificate["valid"], true);

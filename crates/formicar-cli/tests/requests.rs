@@ -177,5 +177,5 @@ fn bad_flags_are_refused_with_value_and_hint() {
         &["1000000", "0 to 1000"],
     );
     let other = ["--soft-costs", "map", "--planner", "astar"];
-    refused(&other, &["astar does not weigh", "hybrid-astar"]);
+    refused(&other, &["astar does not weigh", "--planner formicar"]);
 }

@@ -30,7 +30,9 @@ fn case(planner: PlannerName) -> Case {
         return yard_case();
     }
     let (name, vehicle) = match planner {
-        PlannerName::HybridAstar | PlannerName::Lei2020 => ("lei-map1", Vehicle::lei2020()),
+        PlannerName::Formicar | PlannerName::HybridAstar | PlannerName::Lei2020 => {
+            ("lei-map1", Vehicle::lei2020())
+        }
         _ => ("wang-open", Vehicle::point()),
     };
     let builtin = builtin::BuiltinMap::by_name(name).expect("a built-in map");
@@ -224,6 +226,36 @@ fn a_deadline_and_a_cancel_stop_it_and_are_named() {
     }
 }
 
+/// Where ants win the race, are improved, and a budget may end it: in any phase the same.
+#[test]
+fn the_number_of_threads_changes_no_race() {
+    for (map, request) in [("li-neighborhood", 0), ("warehouse", 0), ("warehouse", 1)] {
+        let builtin = builtin::BuiltinMap::by_name(map).expect("a built-in map");
+        let vehicle = Vehicle::preset(builtin.vehicle).expect("a preset");
+        let ends = &builtin.requests[request];
+        for budget_steps in [None, Some(900), Some(5000)] {
+            for motion in [MotionMode::Reverse, MotionMode::Forward] {
+                let request = Request {
+                    budget_steps,
+                    motion,
+                    ..Request::new(ends.start, ends.goal)
+                };
+                let config = PlannerConfig::of(PlannerName::Formicar);
+                let plan = |n_threads: usize| {
+                    let planner = Planner::new(&builtin.grid(), vehicle.clone(), config.clone());
+                    let mut planner = planner.expect("parameters").with_threads(n_threads);
+                    let outcome = planner.plan(&request, Seed(3), &mut ()).expect("a request");
+                    let path = outcome.judged().map(|(path, _)| path.clone());
+                    (outcome.status(), outcome.n_steps(), path)
+                };
+                let one = plan(1);
+                assert_eq!(one, plan(2), "{map} {budget_steps:?}");
+                assert_eq!(one, plan(7), "{map} {budget_steps:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn the_number_of_threads_changes_nothing() {
     for name in PlannerName::ALL {
@@ -258,7 +290,15 @@ fn seeded(share: f64) -> InitialPopulation {
 #[test]
 fn bad_parameters_are_refused_with_their_range() {
     let map = case(PlannerName::HybridAstar).map;
-    let bad: [fn(&mut PlannerConfig); 35] = [
+    let bad: [fn(&mut PlannerConfig); 43] = [
+        |c| c.drive.n_ants = 10_001,
+        |c| c.drive.beta = f64::NAN,
+        |c| c.drive.detour_ratio = 0.5,
+        |c| c.drive.repair.toll_per_death = -1.0,
+        |c| c.drive.trails.rho = 1.5,
+        |c| c.cost.reverse_factor = 0.0,
+        |c| c.cost.clearance_wish_m = f64::INFINITY,
+        |c| c.improve.n_checked = 0,
         |c| c.colony.n_ants = 0,
         |c| c.layers.expansion = Expansion::Cells(65),
         |c| c.smoothing.n_members = 0,
@@ -465,6 +505,7 @@ fn heading_modes_gears_and_tolerances_hold() {
 fn what_is_found_on_random_maps_touches_nothing() {
     let vehicles = [Vehicle::warehouse_amr(), Vehicle::f1tenth()];
     let planners = [
+        PlannerName::Formicar,
         PlannerName::HybridAstar,
         PlannerName::Lei2020,
         PlannerName::Wang2019,
@@ -474,7 +515,7 @@ fn what_is_found_on_random_maps_touches_nothing() {
         PlannerName::Ga,
         PlannerName::Aga,
     ];
-    let mut n_found = [0; 8];
+    let mut n_found = [0; 9];
     for seed in 0..12 {
         let parameters = ScatterParameters {
             n_cols: 120,

@@ -111,7 +111,10 @@ fn planners_over_cells_and_colonies_take_the_goal_that_is_nearest_on_the_ground(
     let mut request = Request::new(Pose2::new(4.75, 3.75, 0.0), Pose2::new(7.25, 3.75, 0.0));
     request.other_goals = vec![Pose2::new(0.75, 3.75, 0.0)];
     for name in PlannerName::ALL {
-        let is_of_cars = matches!(name, PlannerName::HybridAstar | PlannerName::Faco2024);
+        let is_of_cars = matches!(
+            name,
+            PlannerName::Formicar | PlannerName::HybridAstar | PlannerName::Faco2024
+        );
         if is_of_cars {
             continue;
         }
@@ -197,7 +200,7 @@ fn planners_pass_via_points() {
     let names = PlannerName::ALL.into_iter();
     for name in names.filter(|&name| name != PlannerName::Faco2024) {
         let vehicle = match name {
-            PlannerName::HybridAstar => Vehicle::f1tenth(),
+            PlannerName::Formicar | PlannerName::HybridAstar => Vehicle::f1tenth(),
             _ => Vehicle::point(),
         };
         let mut planner = planner(&map, vehicle, name);

@@ -8,7 +8,7 @@ use crate::geometry::{Arc, Point2, Pose2};
 use crate::numeric::Seed;
 use crate::progress::{Event, Limits, Status};
 use crate::scenario::Request;
-use crate::search::{DriveProblem, Side};
+use crate::search::{DriveProblem, Side, hybrid_astar};
 use crate::smoothing::{ImproveConfig, ImproveProblem, Improver};
 use crate::validation::judge;
 
@@ -89,7 +89,7 @@ impl Planner {
         };
         best.tell_if_certified(won.path.0, &won.path.1, limits);
         best.path = won.path.clone();
-        let ended = best.run(won, rules, limits);
+        let ended = best.run(won, problem, rules, limits);
         (best.path, ended)
     }
 }
@@ -108,8 +108,15 @@ struct Best<'a> {
 }
 
 impl Best<'_> {
-    fn run(&mut self, won: Won, rules: &Rules, limits: &mut Limits) -> Result<(), Status> {
+    fn run(
+        &mut self,
+        won: Won,
+        problem: &DriveProblem,
+        rules: &Rules,
+        limits: &mut Limits,
+    ) -> Result<(), Status> {
         self.offer(won.path, limits)?;
+        self.heed_soft_costs(problem, rules, limits)?;
         let Some(WonStage {
             problem,
             mut guide,
@@ -140,6 +147,26 @@ impl Best<'_> {
         ended
     }
 
+    /// Where soft costs are given, a path that hybrid A* finds with them: local search alone would
+    /// not find the way around what is unwanted.
+    fn heed_soft_costs(
+        &mut self,
+        problem: &DriveProblem,
+        rules: &Rules,
+        limits: &mut Limits,
+    ) -> Result<(), Status> {
+        let Some(costs) = self.planner.soft_costs.as_deref() else {
+            return Ok(());
+        };
+        let problem = problem.clone().with_soft_costs(Some(costs));
+        let n_steps = MORE_STEPS * rules.config.second_steps;
+        match limits.within(n_steps, |limits| hybrid_astar(&problem, limits)) {
+            Ok(path) => self.offer(path, limits),
+            Err(status @ (Status::TimedOut | Status::Cancelled)) => Err(status),
+            Err(_) => Ok(()),
+        }
+    }
+
     /// Sends focused ants until so many generations gained nothing.
     fn send_ants(
         &mut self,
@@ -166,7 +193,8 @@ impl Best<'_> {
     /// Improves a path, and keeps it where it is the cheapest.
     fn offer(&mut self, (start, arcs): Driven, limits: &mut Limits) -> Result<(), Status> {
         let length_m = |arcs: &[Arc]| arcs.iter().map(|arc| arc.length_m()).sum::<f64>();
-        if self.cost_m.is_finite() && length_m(&arcs) > WORTH_RATIO * length_m(&self.path.1) {
+        let is_long = length_m(&arcs) > WORTH_RATIO * length_m(&self.path.1);
+        if self.cost_m.is_finite() && is_long && self.planner.soft_costs.is_none() {
             return Ok(());
         }
         let seed = self.next_seed();

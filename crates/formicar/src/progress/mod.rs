@@ -199,8 +199,15 @@ impl<'a> Limits<'a> {
             observer: &mut *self.observer,
             budget_steps: None,
             deadline: self.deadline,
-            // Short work does not look at the clock.
+            n_steps: 0,
+        }
+    }
+
+    /// The same for work that is mostly short: the clock is looked at only after many steps.
+    pub fn aside(&mut self) -> Limits<'_> {
+        Limits {
             n_steps: 1,
+            ..self.without_budget()
         }
     }
 

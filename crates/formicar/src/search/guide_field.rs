@@ -129,7 +129,10 @@ impl<'a> GuideField<'a> {
             }
         }
         self.wave.rewind();
-        self.settle(settled.saturating_sub(1), limits)
+        self.settle(settled.saturating_sub(1), limits)?;
+        // The front may have run out before it came that far again.
+        self.wave.skip_to(settled);
+        Ok(())
     }
 
     /// Raises the toll of a cell; the cells that are rough for the first time.

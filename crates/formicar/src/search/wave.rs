@@ -109,6 +109,11 @@ impl Wave {
         }
     }
 
+    /// Takes all cells below a cost as settled.
+    pub(super) fn skip_to(&mut self, floor: u32) {
+        self.floor = self.floor.max(floor);
+    }
+
     /// Expands the next bucket. A step of the limits is a cell expanded.
     pub(super) fn advance(
         &mut self,

@@ -193,7 +193,7 @@ mod tests {
     fn order_counts() {
         let there_and_back = passed(vec![at(5.0, 0.0), at(12.0, 2.0), at(5.0, 4.0)]);
         assert!(there_and_back.missed.is_none());
-        let expected = [4.9, 10.0 + PI - 0.05, 14.9 + 2.0 * PI];
+        let expected = [4.9, 10.0 + PI - 0.1, 14.9 + 2.0 * PI];
         for (s_m, expected) in there_and_back.s_m.iter().zip(expected) {
             assert!((s_m - expected).abs() < 0.01, "{s_m} is not {expected}");
         }

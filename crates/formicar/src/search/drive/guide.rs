@@ -149,7 +149,7 @@ impl<'a> Guide<'a> {
     ) -> Result<(), Status> {
         let moves = self.field.moves();
         let tolls = tolls(self.resolution_m, (moves.n_cols(), moves.n_rows()));
-        match self.field.add_tolls(&tolls, &mut limits.without_budget()) {
+        match self.field.add_tolls(&tolls, &mut limits.aside()) {
             Err(SearchError::Ended { status }) => Err(status),
             _ => Ok(()),
         }
@@ -162,7 +162,7 @@ impl<'a> Guide<'a> {
     pub fn settle_around(&mut self, to_go_m: f64, limits: &mut Limits) -> Result<(), Status> {
         let cells = to_go_m / (OCTILE_SHRINK * self.resolution_m);
         let cost = (cells * f64::from(STRAIGHT_COST)).min(f64::from(u32::MAX / 4)) as u32;
-        match self.field.settle(cost, &mut limits.without_budget()) {
+        match self.field.settle(cost, &mut limits.aside()) {
             Err(SearchError::Ended { status }) => Err(status),
             _ => Ok(()),
         }
@@ -172,7 +172,7 @@ impl<'a> Guide<'a> {
         if let Some(cost) = self.field.cost(cell) {
             return Ok(Some(cost));
         }
-        match self.field.measure(cell, &mut limits.without_budget()) {
+        match self.field.measure(cell, &mut limits.aside()) {
             Ok(cost) => Ok(cost),
             Err(SearchError::Ended { status }) => Err(status),
             Err(_) => Ok(None),
