@@ -18,6 +18,7 @@ mod request_document;
 mod run;
 mod sealed;
 mod sections;
+mod update;
 mod via;
 mod via_record;
 

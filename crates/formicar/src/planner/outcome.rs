@@ -144,6 +144,9 @@ pub enum PlanError {
         /// The planner.
         planner: PlannerName,
     },
+    /// New cells that do not fit the map.
+    #[error(transparent)]
+    Map(#[from] crate::map::MapError),
     /// The vehicle does not suit the search.
     #[error(transparent)]
     Vehicle(#[from] crate::vehicle::VehicleError),
