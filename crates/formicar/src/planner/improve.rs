@@ -27,7 +27,7 @@ impl Planner {
             Err(status) => return Ok(Err(status.into())),
         };
         self.tell_if_certified(request, (first.0, &first.1), limits);
-        let improved = self.improve(request, &problem, &first, seed, limits);
+        let improved = self.improve(Some(request), &problem, &first, seed, limits);
         if improved.ended == Some(Status::Cancelled) {
             return Ok(Err(Status::Cancelled.into()));
         }
@@ -36,10 +36,11 @@ impl Planner {
         Ok(Ok(found))
     }
 
-    /// Improves a path; a budget or deadline that ends it leaves what is reached.
-    fn improve(
+    /// Improves a path; a budget or deadline that ends it leaves what is reached. The observer is
+    /// told of paths for a request, where one is given.
+    pub(super) fn improve(
         &self,
-        request: &Request,
+        told: Option<&Request>,
         problem: &DriveProblem,
         (start, arcs): &Driven,
         seed: Seed,
@@ -51,7 +52,7 @@ impl Planner {
             obstacles: &self.obstacles,
             body: problem.ground().body(),
             radius_m: problem.ground().radius_m(),
-            motion: request.motion,
+            motion: problem.motion(),
             cost: &self.config.cost,
             soft: soft.is_some().then_some(&price),
         };
@@ -59,12 +60,16 @@ impl Planner {
             (*start, arcs),
             seed,
             limits,
-            &mut |arcs, limits| self.tell_if_certified(request, (*start, arcs), limits),
+            &mut |arcs, limits| {
+                if let Some(request) = told {
+                    self.tell_if_certified(request, (*start, arcs), limits);
+                }
+            },
         )
     }
 
     /// Tells the observer of a path that the judge certifies.
-    fn tell_if_certified(
+    pub(super) fn tell_if_certified(
         &self,
         request: &Request,
         (start, arcs): (Pose2, &[Arc]),
