@@ -71,7 +71,6 @@ fn an_updated_planner_is_one_made_for_the_changed_map() {
         PlannerName::Formicar,
         PlannerName::HybridAstar,
         PlannerName::Astar,
-        PlannerName::Lei2020,
     ] {
         let (mut map, request) = (open_map(160, 90), across(160, 90));
         let mut warm = on(&map, quick(name));

@@ -2,7 +2,7 @@
 
 use formicar::collision::{Body, Drive, ObstacleMap};
 use formicar::geometry::Pose2;
-use formicar::map::{Cell, CellRegion, GridFrame, OCCUPIED};
+use formicar::map::{Cell, CellRegion, FREE, GridFrame, OCCUPIED};
 use formicar::numeric::Seed;
 use formicar::path::CurvePath;
 use formicar::vehicle::Vehicle;
@@ -18,7 +18,7 @@ const ASIDE_WIDTHS: f64 = 1.0;
 /// Sides of a block, vehicle widths.
 const SIDES_WIDTHS: (f64, f64) = (0.3, 0.8);
 
-/// A block that appears: where, and which of its cells were not lethal before.
+/// A block that appears: where, and what its cells were before.
 #[derive(Clone, Debug)]
 pub(super) struct Block {
     pub(super) region: CellRegion,
@@ -26,6 +26,18 @@ pub(super) struct Block {
 }
 
 impl Block {
+    /// A block that is to appear on a map.
+    pub(super) fn of(obstacles: &ObstacleMap, region: CellRegion) -> Self {
+        let lethal = obstacles.lethal();
+        let is_lethal = |cell: Cell| lethal.get(cell.col as usize, cell.row as usize);
+        let before = region.cells();
+        let before = before.map(|cell| if is_lethal(cell) { OCCUPIED } else { FREE });
+        Self {
+            region,
+            before: before.collect(),
+        }
+    }
+
     /// The values of its cells while it stands.
     pub(super) fn values(&self) -> Vec<i8> {
         vec![OCCUPIED; self.before.len()]
@@ -74,12 +86,7 @@ pub(super) fn block(
     region: CellRegion,
     ends: [Pose2; 2],
 ) -> Option<Block> {
-    let is_lethal = |cell: Cell| obstacles.lethal().get(cell.col as usize, cell.row as usize);
-    let before = region.cells();
-    let before: Vec<i8> = before
-        .map(|cell| if is_lethal(cell) { OCCUPIED } else { 0 })
-        .collect();
-    let block = Block { region, before };
+    let block = Block::of(obstacles, region);
     let mut changed = obstacles.clone();
     changed.update(&block.region, &block.values()).ok()?;
     let body = Body::new(vehicle);

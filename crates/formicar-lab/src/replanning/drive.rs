@@ -31,41 +31,41 @@ pub(super) struct Method {
 
 /// A change of the map and what the vehicle does then.
 #[derive(Clone, Debug, Serialize)]
-pub struct Step {
+pub(super) struct Step {
     /// The map.
-    pub map: String,
+    pub(super) map: String,
     /// The method.
-    pub method: String,
+    pub(super) method: String,
     /// The seed.
-    pub seed: u64,
+    pub(super) seed: u64,
     /// The change, counted from 1.
-    pub change: usize,
+    pub(super) change: usize,
     /// Whether the path before is free after the change.
-    pub still_free: bool,
+    pub(super) still_free: bool,
     /// Whether there is a certified path.
-    pub found: bool,
+    pub(super) found: bool,
     /// Whether it passes an obstacle on another side than the path before.
-    pub flip: Option<bool>,
+    pub(super) flip: Option<bool>,
     /// Share of its places that lie on the path before.
-    pub kept_share: Option<f64>,
+    pub(super) kept_share: Option<f64>,
     /// What it costs, metres.
-    pub cost_m: Option<f64>,
+    pub(super) cost_m: Option<f64>,
     /// What the path planned anew from the same place costs, metres.
-    pub anew_cost_m: Option<f64>,
+    pub(super) anew_cost_m: Option<f64>,
     /// Its length.
-    pub length_m: Option<f64>,
+    pub(super) length_m: Option<f64>,
     /// Its least clearance.
-    pub min_clearance_m: Option<f64>,
+    pub(super) min_clearance_m: Option<f64>,
     /// Changing the map, milliseconds.
-    pub update_ms: f64,
+    pub(super) update_ms: f64,
     /// Until the first certified path, milliseconds.
-    pub first_ms: Option<f64>,
+    pub(super) first_ms: Option<f64>,
     /// The query in all, milliseconds.
-    pub query_ms: f64,
+    pub(super) query_ms: f64,
     /// The query planned anew from the same place, milliseconds.
-    pub anew_query_ms: f64,
+    pub(super) anew_query_ms: f64,
     /// Search steps.
-    pub n_steps: u64,
+    pub(super) n_steps: u64,
 }
 
 /// A clock that remembers the first certified path.
@@ -94,6 +94,14 @@ impl Observer for Watch {
             self.first_ms.get_or_insert(now_ms);
         }
     }
+}
+
+/// The answer to a query, and how long it took.
+#[derive(Clone)]
+struct Asked {
+    plan: Option<Plan>,
+    first_ms: Option<f64>,
+    query_ms: f64,
 }
 
 /// Drives a request of a ground, with a new path after every change; ends where there is none.
@@ -125,7 +133,7 @@ pub(super) fn drive(ground: &Ground, method: &Method, seed: u64) -> Result<Vec<S
         };
         let goal = journey.path.end();
         let next = block(
-            planner_map(&journey.planner),
+            journey.planner.obstacles(),
             &ground.vehicle,
             region,
             [start, goal],
@@ -142,10 +150,6 @@ pub(super) fn drive(ground: &Ground, method: &Method, seed: u64) -> Result<Vec<S
         }
     }
     Ok(steps)
-}
-
-fn planner_map(planner: &Planner) -> &ObstacleMap {
-    planner.obstacles()
 }
 
 fn rest(path: &CurvePath, behind_m: f64) -> CurvePath {
@@ -166,40 +170,16 @@ struct Journey<'a> {
 impl Journey<'_> {
     /// A block vanishes, another appears, and there is a new path.
     fn step(&mut self, request: &Request, next: Block, change: usize) -> Result<Step> {
-        let begun = Watch::start();
-        if let Some(gone) = self.standing.take() {
-            self.planner.update_map(gone.region, &gone.before)?;
-        }
-        let vanished_ms = begun.ms();
-        // Both the path before and the one after are free on this map.
-        let common = self.planner.obstacles().as_ref().clone();
-        // What stood under the block before may have vanished with the last one.
-        let lethal = common.lethal();
-        let before = next.region.cells();
-        let before = before
-            .map(|cell| 100 * i8::from(lethal.get(cell.col as usize, cell.row as usize)))
-            .collect();
-        let next = Block { before, ..next };
-        let begun = Watch::start();
-        self.planner.update_map(next.region, &next.values())?;
-        let update_ms = vanished_ms + begun.ms();
-        self.standing = Some(next);
-        let ahead = rest(
-            &self.path,
-            self.path.nearest_m(request.start, 1.0, SPACING_M),
-        );
-        // What queries prepare once after a change is part of each.
-        let mut cold = self.planner.clone();
-        let (anew, anew_watch) = self.query(&mut cold, request, false)?;
-        let mut planner = self.planner.clone();
-        let (plan, watch, query_ms) = if self.method.replans {
-            let (plan, watch) = self.query(&mut planner, request, true)?;
-            let query_ms = watch.1;
-            (plan, watch.0, query_ms)
+        let (common, update_ms) = self.change_map(next)?;
+        let driven_m = self.path.nearest_m(request.start, 1.0, SPACING_M);
+        let ahead = rest(&self.path, driven_m);
+        let anew = self.ask(request, false)?;
+        let own = if self.method.replans {
+            self.ask(request, true)?
         } else {
-            let copy = anew.clone();
-            (copy, Watch { ..anew_watch.0 }, anew_watch.1)
+            anew.clone()
         };
+        let plan = own.plan;
         let path = plan.as_ref().map(|plan| &plan.path);
         let step = Step {
             map: self.ground.map.clone(),
@@ -211,13 +191,13 @@ impl Journey<'_> {
             flip: path.map(|path| flip(&ahead, path, &common)),
             kept_share: path.map(|path| kept_share(path, &ahead)),
             cost_m: path.map(|path| self.cost_m(path)),
-            anew_cost_m: anew.as_ref().map(|plan| self.cost_m(&plan.path)),
+            anew_cost_m: anew.plan.as_ref().map(|plan| self.cost_m(&plan.path)),
             length_m: path.map(CurvePath::length_m),
             min_clearance_m: plan.as_ref().map(|plan| plan.certificate.min_clearance_m),
             update_ms,
-            first_ms: watch.first_ms,
-            query_ms,
-            anew_query_ms: anew_watch.1,
+            first_ms: own.first_ms,
+            query_ms: own.query_ms,
+            anew_query_ms: anew.query_ms,
             n_steps: plan.as_ref().map_or(0, |plan| plan.n_steps),
         };
         if let Some(plan) = plan {
@@ -226,13 +206,27 @@ impl Journey<'_> {
         Ok(step)
     }
 
-    /// Plans from a start, with the watch and the time that it took.
-    fn query(
-        &self,
-        planner: &mut Planner,
-        request: &Request,
-        replans: bool,
-    ) -> Result<(Option<Plan>, (Watch, f64))> {
+    /// Lets the last block vanish and the next one appear; the map between the two, on which the
+    /// path before and the one after are free, and the time of both updates.
+    fn change_map(&mut self, next: Block) -> Result<(ObstacleMap, f64)> {
+        let watch = Watch::start();
+        if let Some(gone) = self.standing.take() {
+            self.planner.update_map(gone.region, &gone.before)?;
+        }
+        let vanished_ms = watch.ms();
+        let common = self.planner.obstacles().as_ref().clone();
+        // What stood under the block may have vanished with the last one.
+        let next = Block::of(&common, next.region);
+        let watch = Watch::start();
+        self.planner.update_map(next.region, &next.values())?;
+        self.standing = Some(next);
+        Ok((common, vanished_ms + watch.ms()))
+    }
+
+    /// Plans from a start, by a copy of the planner: what queries prepare once after a change is
+    /// part of each.
+    fn ask(&self, request: &Request, replans: bool) -> Result<Asked> {
+        let mut planner = self.planner.clone();
         let mut watch = Watch::start();
         let seed = Seed(self.seed);
         let outcome = if replans {
@@ -245,7 +239,11 @@ impl Journey<'_> {
             Outcome::Found(plan) => Some(*plan),
             Outcome::NotFound(_) => None,
         };
-        Ok((plan, (watch, query_ms)))
+        Ok(Asked {
+            plan,
+            first_ms: watch.first_ms,
+            query_ms,
+        })
     }
 
     fn is_free(&self, path: &CurvePath, request: &Request) -> bool {
