@@ -17,8 +17,8 @@ pub(super) struct Choice<'a> {
 }
 
 impl Choice<'_> {
-    /// Improves both and takes the better one, the mended one with an advantage. The observer
-    /// is told of the mended one while it improves: it is what stands.
+    /// Improves both and takes the better one, the mended one with an advantage. The observer,
+    /// who knows of the mended one, is told while it improves: it is what stands.
     pub(super) fn take(
         &self,
         mended: Option<Driven>,
@@ -27,7 +27,10 @@ impl Choice<'_> {
     ) -> Result<Found, Ended> {
         let told = Some(self.request);
         let Some(mended) = mended else {
-            return self.improved(&anew?, told, limits).map(|(found, _)| found);
+            let anew = anew?;
+            let first = (anew.0, &anew.1[..]);
+            self.planner.tell_if_certified(self.request, first, limits);
+            return self.improved(&anew, told, limits).map(|(found, _)| found);
         };
         let (mut old, old_m) = self.improved(&mended, told, limits)?;
         let anew = match anew {
@@ -53,9 +56,6 @@ impl Choice<'_> {
         limits: &mut Limits,
     ) -> Result<(Found, f64), Ended> {
         let (planner, request) = (self.planner, self.request);
-        if told.is_some() {
-            planner.tell_if_certified(request, (first.0, &first.1), limits);
-        }
         let improved = planner.improve(told, self.problem, first, self.seed, limits);
         if improved.ended == Some(Status::Cancelled) {
             return Err(Status::Cancelled.into());

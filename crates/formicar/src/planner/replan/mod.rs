@@ -87,10 +87,7 @@ impl Planner {
         limits.tell(&Event::SearchStarted);
         let mender = self.mender(&problem, previous);
         let mended = mender.as_ref().and_then(|mender| mender.mend(None));
-        let mut mended = mended.filter(|path| self.is_certified(request, path));
-        if let Some((start, arcs)) = &mended {
-            self.tell_if_certified(request, (*start, arcs), limits);
-        }
+        let mut mended = self.told_if_certified(request, mended, limits);
         let n_before = limits.n_steps();
         let anew = first_path(&problem, &self.config.drive, seed, limits);
         if anew == Err(Status::Cancelled) {
@@ -99,7 +96,7 @@ impl Planner {
         if let (None, Some(mender), Ok(_)) = (&mended, &mender, &anew) {
             let most_steps = (limits.n_steps() - n_before).max(LEAST_DETOUR_STEPS);
             let path = self.mend_by_search(request, mender, (seed, most_steps), limits);
-            mended = path.filter(|path| self.is_certified(request, path));
+            mended = self.told_if_certified(request, path, limits);
         }
         let choice = Choice {
             planner: self,
@@ -149,6 +146,18 @@ impl Planner {
             found.ok().map(|(_, arcs)| arcs)
         };
         mender.mend(Some(&mut search))
+    }
+
+    /// A path that the judge certifies, of which the observer is told.
+    fn told_if_certified(
+        &self,
+        request: &Request,
+        path: Option<Driven>,
+        limits: &mut Limits,
+    ) -> Option<Driven> {
+        let path = path.filter(|path| self.is_certified(request, path))?;
+        self.tell_if_certified(request, (path.0, &path.1), limits);
+        Some(path)
     }
 
     fn is_certified(&self, request: &Request, (start, arcs): &Driven) -> bool {
