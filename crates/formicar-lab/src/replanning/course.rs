@@ -79,20 +79,19 @@ fn region(frame: &GridFrame, middle: Pose2, side_m: f64) -> CellRegion {
     CellRegion::new(corner, cols.len(), rows.len())
 }
 
-/// The block of a region on a map; none where it would stand on the vehicle or on its goal.
-pub(super) fn block(
+/// Whether a block can appear in a region: not on the vehicle, nor on its goal.
+pub(super) fn can_stand(
     obstacles: &ObstacleMap,
     vehicle: &Vehicle,
     region: CellRegion,
     ends: [Pose2; 2],
-) -> Option<Block> {
-    let block = Block::of(obstacles, region);
+) -> bool {
     let mut changed = obstacles.clone();
-    changed.update(&block.region, &block.values()).ok()?;
+    let values = Block::of(obstacles, region).values();
     let body = Body::new(vehicle);
-    let is_free = |pose: Pose2| {
-        let pose = changed.frame().to_grid(pose);
-        changed.is_free(&body, &Drive::at(pose))
-    };
-    ends.into_iter().all(is_free).then_some(block)
+    changed.update(&region, &values).is_ok()
+        && ends.into_iter().all(|pose| {
+            let pose = changed.frame().to_grid(pose);
+            changed.is_free(&body, &Drive::at(pose))
+        })
 }

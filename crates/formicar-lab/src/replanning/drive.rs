@@ -1,10 +1,11 @@
 //! One drive through a changing map.
 
-use super::course::{Block, block, regions};
+use super::course::{Block, can_stand, regions};
 use crate::experiment::{Ground, Variant};
 use anyhow::Result;
 use formicar::collision::{Body, ObstacleMap};
 use formicar::geometry::Arc;
+use formicar::map::CellRegion;
 use formicar::metrics::flip;
 use formicar::numeric::Seed;
 use formicar::objective::DriveMeter;
@@ -131,18 +132,12 @@ pub(super) fn drive(ground: &Ground, method: &Method, seed: u64) -> Result<Vec<S
             start,
             ..ground.request.clone()
         };
-        let goal = journey.path.end();
-        let next = block(
-            journey.planner.obstacles(),
-            &ground.vehicle,
-            region,
-            [start, goal],
-        );
-        let Some(next) = next else {
+        let ends = [start, journey.path.end()];
+        if !can_stand(journey.planner.obstacles(), &ground.vehicle, region, ends) {
             journey.path = rest(&journey.path, behind_m);
             continue;
-        };
-        let step = journey.step(&request, next, i + 1)?;
+        }
+        let step = journey.step(&request, region, i + 1)?;
         let is_found = step.found;
         steps.push(step);
         if !is_found {
@@ -169,8 +164,8 @@ struct Journey<'a> {
 
 impl Journey<'_> {
     /// A block vanishes, another appears, and there is a new path.
-    fn step(&mut self, request: &Request, next: Block, change: usize) -> Result<Step> {
-        let (common, update_ms) = self.change_map(next)?;
+    fn step(&mut self, request: &Request, region: CellRegion, change: usize) -> Result<Step> {
+        let (common, update_ms) = self.change_map(region)?;
         let driven_m = self.path.nearest_m(request.start, 1.0, SPACING_M);
         let ahead = rest(&self.path, driven_m);
         let anew = self.ask(request, false)?;
@@ -208,7 +203,7 @@ impl Journey<'_> {
 
     /// Lets the last block vanish and the next one appear; the map between the two, on which the
     /// path before and the one after are free, and the time of both updates.
-    fn change_map(&mut self, next: Block) -> Result<(ObstacleMap, f64)> {
+    fn change_map(&mut self, region: CellRegion) -> Result<(ObstacleMap, f64)> {
         let watch = Watch::start();
         if let Some(gone) = self.standing.take() {
             self.planner.update_map(gone.region, &gone.before)?;
@@ -216,7 +211,7 @@ impl Journey<'_> {
         let vanished_ms = watch.ms();
         let common = self.planner.obstacles().as_ref().clone();
         // What stood under the block may have vanished with the last one.
-        let next = Block::of(&common, next.region);
+        let next = Block::of(&common, region);
         let watch = Watch::start();
         self.planner.update_map(next.region, &next.values())?;
         self.standing = Some(next);

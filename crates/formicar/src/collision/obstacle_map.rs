@@ -48,10 +48,7 @@ impl ObstacleMap {
         values: &[i8],
     ) -> Result<Option<CellRegion>, MapError> {
         region.check(&self.frame, values)?;
-        let (mut cols, mut rows) = (usize::MAX..0, usize::MAX..0);
-        let widen = |range: &mut Range<usize>, i: usize| {
-            *range = range.start.min(i)..range.end.max(i + 1);
-        };
+        let mut changed: Option<CellRegion> = None;
         for (cell, &value) in region.cells().zip(values) {
             let (col, row) = (cell.col as usize, cell.row as usize);
             let is_lethal = map::lethal(value);
@@ -63,13 +60,12 @@ impl ObstacleMap {
             } else {
                 self.lethal.remove(cell);
             }
-            widen(&mut cols, col);
-            widen(&mut rows, row);
+            let here = CellRegion::new(cell, 1, 1);
+            changed = Some(changed.map_or(here, |changed| changed.with(&here)));
         }
-        if cols.is_empty() {
+        let Some(changed) = changed else {
             return Ok(None);
-        }
-        let changed = CellRegion::of_ranges(&cols, &rows);
+        };
         let beside = changed.grown(1, self.lethal.n_cols(), self.lethal.n_rows());
         refresh_rim(&mut self.rim, &self.lethal, beside.rows());
         self.distance.refresh(&self.lethal, &changed);

@@ -61,6 +61,16 @@ impl CellRegion {
         Self::of_ranges(&grow(self.cols(), n_cols), &grow(self.rows(), n_rows))
     }
 
+    /// The least rectangle that holds this one and another.
+    #[must_use]
+    pub fn with(&self, other: &Self) -> Self {
+        let both = |a: Range<usize>, b: Range<usize>| a.start.min(b.start)..a.end.max(b.end);
+        Self::of_ranges(
+            &both(self.cols(), other.cols()),
+            &both(self.rows(), other.rows()),
+        )
+    }
+
     /// Whether values can be put into it on a map.
     ///
     /// # Errors

@@ -27,7 +27,7 @@ impl Planner {
             Err(status) => return Ok(Err(status.into())),
         };
         self.tell_if_certified(request, (first.0, &first.1), limits);
-        let improved = self.improve(Some(request), &problem, &first, seed, limits);
+        let improved = self.improve(&problem, &first, (Some(request), seed), limits);
         if improved.ended == Some(Status::Cancelled) {
             return Ok(Err(Status::Cancelled.into()));
         }
@@ -40,10 +40,9 @@ impl Planner {
     /// told of paths for a request, where one is given.
     pub(super) fn improve(
         &self,
-        told: Option<&Request>,
         problem: &DriveProblem,
         (start, arcs): &Driven,
-        seed: Seed,
+        (told, seed): (Option<&Request>, Seed),
         limits: &mut Limits,
     ) -> Improved {
         let soft = self.soft_costs.as_deref();

@@ -56,7 +56,7 @@ impl Choice<'_> {
         limits: &mut Limits,
     ) -> Result<(Found, f64), Ended> {
         let (planner, request) = (self.planner, self.request);
-        let improved = planner.improve(told, self.problem, first, self.seed, limits);
+        let improved = planner.improve(self.problem, first, (told, self.seed), limits);
         if improved.ended == Some(Status::Cancelled) {
             return Err(Status::Cancelled.into());
         }
