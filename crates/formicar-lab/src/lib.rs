@@ -8,6 +8,7 @@
 mod experiment;
 mod lei2020;
 mod li2024;
+mod replanning;
 pub mod report;
 mod reproduction;
 pub mod statistics;
@@ -17,6 +18,7 @@ mod wang2019;
 pub use experiment::{Ground, Scale, Setup, Variant};
 pub use lei2020::lei2020;
 pub use li2024::li2024;
+pub use replanning::replanning;
 pub use reproduction::Reproduction;
 pub use trial::Trial;
 pub use wang2019::wang2019;

@@ -40,6 +40,8 @@ pub(crate) enum Paper {
     Wang2019,
     /// Li et al. 2024: FACO and six rivals on a neighborhood, beside Tables 1 and 2.
     Li2024,
+    /// No paper: replanning against planning anew on changing maps.
+    Replanning,
     /// All of them.
     All,
 }
@@ -53,10 +55,16 @@ impl Paper {
             Self::Lei2020 => vec![("lei2020", formicar_lab::lei2020)],
             Self::Wang2019 => vec![("wang2019", formicar_lab::wang2019)],
             Self::Li2024 => vec![("li2024", formicar_lab::li2024)],
-            Self::All => [Self::Lei2020, Self::Wang2019, Self::Li2024]
-                .into_iter()
-                .flat_map(Self::experiments)
-                .collect(),
+            Self::Replanning => vec![("replanning", formicar_lab::replanning)],
+            Self::All => [
+                Self::Lei2020,
+                Self::Wang2019,
+                Self::Li2024,
+                Self::Replanning,
+            ]
+            .into_iter()
+            .flat_map(Self::experiments)
+            .collect(),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Body;
 use crate::geometry::{Point2, Pose2};
-use crate::map::{BitGrid, DistanceField, GridFrame, OccupancyGrid};
+use crate::map::{self, BitGrid, CellRegion, DistanceField, GridFrame, MapError, OccupancyGrid};
 use std::ops::Range;
 use std::sync::OnceLock;
 use xxhash_rust::xxh3::xxh3_128;
@@ -21,13 +21,56 @@ impl ObstacleMap {
     /// Prepares a map: cost proportional to its cells.
     pub fn new(map: &OccupancyGrid) -> Self {
         let lethal = map.lethal_cells();
+        let mut rim = BitGrid::new(lethal.n_cols(), lethal.n_rows());
+        refresh_rim(&mut rim, &lethal, 0..lethal.n_rows());
         Self {
             frame: *map.frame(),
-            rim: rim_of(&lethal),
+            rim,
             distance: DistanceField::new(&lethal, DistanceField::DEFAULT_TRUNCATION_CELLS),
             lethal,
             hash: OnceLock::new(),
         }
+    }
+
+    /// Puts new values into a rectangle of cells, row by row, lowest row first; the rectangle
+    /// about all cells that have become lethal or have ceased to be, none where there are none.
+    ///
+    /// What is prepared is then the same, to the bit, as of the changed map prepared anew. Cost is
+    /// proportional to the cells of the changed rectangle grown by twice the truncation of the
+    /// distance transform.
+    ///
+    /// # Errors
+    /// A part of it off the map, another number of values than cells, or a value outside
+    /// -1..=100; nothing is changed then.
+    pub fn update(
+        &mut self,
+        region: &CellRegion,
+        values: &[i8],
+    ) -> Result<Option<CellRegion>, MapError> {
+        region.check(&self.frame, values)?;
+        let mut changed: Option<CellRegion> = None;
+        for (cell, &value) in region.cells().zip(values) {
+            let (col, row) = (cell.col as usize, cell.row as usize);
+            let is_lethal = map::lethal(value);
+            if is_lethal == self.lethal.get(col, row) {
+                continue;
+            }
+            if is_lethal {
+                self.lethal.insert(cell);
+            } else {
+                self.lethal.remove(cell);
+            }
+            let here = CellRegion::new(cell, 1, 1);
+            changed = Some(changed.map_or(here, |changed| changed.with(&here)));
+        }
+        let Some(changed) = changed else {
+            return Ok(None);
+        };
+        let beside = changed.grown(1, self.lethal.n_cols(), self.lethal.n_rows());
+        refresh_rim(&mut self.rim, &self.lethal, beside.rows());
+        self.distance.refresh(&self.lethal, &changed);
+        self.hash = OnceLock::new();
+        Ok(Some(changed))
     }
 
     /// Size, resolution and origin of the map.
@@ -154,11 +197,11 @@ impl ObstacleMap {
     }
 }
 
-fn rim_of(lethal: &BitGrid) -> BitGrid {
+/// Works out which cells of some rows are on the rim.
+fn refresh_rim(rim: &mut BitGrid, lethal: &BitGrid, rows: Range<usize>) {
     let (n_cols, n_rows) = (lethal.n_cols(), lethal.n_rows());
-    let mut rim = BitGrid::new(n_cols, n_rows);
     let last_bit = 1 << ((n_cols - 1) % 64);
-    for row in 0..n_rows {
+    for row in rows {
         let here = lethal.row(row);
         let below = lethal.row(row.saturating_sub(1));
         let above = lethal.row((row + 1).min(n_rows - 1));
@@ -171,12 +214,67 @@ fn rim_of(lethal: &BitGrid) -> BitGrid {
             rim.row_mut(row)[w] = here[w] & !(west & east & below[w] & above[w]);
         }
     }
-    rim
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::map::Cell;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+        #[test]
+        fn an_updated_map_is_that_of_the_changed_cells(
+            n_cols in 1_usize..400,
+            n_rows in 1_usize..300,
+            density in 0_usize..40,
+            updates in prop::collection::vec((0.0..1.0, 0.0..1.0, 1_usize..40, 1_usize..40), 1..4),
+            seed in any::<u64>(),
+        ) {
+            let mut draw = crate::numeric::Seed(seed).stream([0, 0]);
+            let rows = vec![".".repeat(n_cols); n_rows];
+            let rows: Vec<&str> = rows.iter().map(String::as_str).collect();
+            let mut grid = OccupancyGrid::from_rows(&rows, 0.5).unwrap();
+            for _ in 0..density {
+                let cell = Cell::new(draw.below(n_cols) as u32, draw.below(n_rows) as u32);
+                grid.set(cell, map::OCCUPIED);
+            }
+            let mut map = ObstacleMap::new(&grid);
+            for (x, y, width, height) in updates {
+                let (col, row) = ((x * n_cols as f64) as usize, (y * n_rows as f64) as usize);
+                let (width, height) = (width.min(n_cols - col), height.min(n_rows - row));
+                let region = CellRegion::new(Cell::new(col as u32, row as u32), width, height);
+                let n_kinds = 1 + draw.below(3);
+                let values: Vec<i8> = (0..width * height)
+                    .map(|_| [0, 100, -1][draw.below(n_kinds)])
+                    .collect();
+                map.hash();
+                map.update(&region, &values).unwrap();
+                grid.replace(&region, &values).unwrap();
+                let fresh = ObstacleMap::new(&grid);
+                prop_assert_eq!(map.lethal(), fresh.lethal());
+                prop_assert_eq!(map.rim(), fresh.rim());
+                prop_assert_eq!(map.distance(), fresh.distance());
+                prop_assert_eq!(map.hash(), fresh.hash());
+            }
+        }
+    }
+
+    #[test]
+    fn an_update_tells_what_it_changed() {
+        let map = OccupancyGrid::from_rows(&["....", "..#.", "...."], 1.0).unwrap();
+        let mut map = ObstacleMap::new(&map);
+        let whole = CellRegion::new(Cell::new(0, 0), 4, 3);
+        let mut values = [0; 12];
+        values[6] = map::UNKNOWN;
+        assert_eq!(map.update(&whole, &values).unwrap(), None);
+        values[1] = 100;
+        values[8] = 100;
+        let changed = CellRegion::new(Cell::new(0, 0), 2, 3);
+        assert_eq!(map.update(&whole, &values).unwrap(), Some(changed));
+        assert!(map.update(&whole, &values[1..]).is_err());
+    }
 
     #[test]
     fn the_rim_faces_free_ground() {

@@ -49,6 +49,20 @@ impl BitGrid {
         &self.words
     }
 
+    /// The part of the set in some columns, of which the first is a multiple of 64, and rows; as a
+    /// set of a grid of that size.
+    #[must_use]
+    pub fn window(&self, cols: Range<usize>, rows: Range<usize>) -> Self {
+        debug_assert!(cols.start.is_multiple_of(64) && cols.end <= self.n_cols);
+        let mut window = Self::new(cols.len(), rows.len());
+        for (i, row) in rows.enumerate() {
+            let source = &self.row(row)[cols.start / 64..cols.end.div_ceil(64)];
+            window.row_mut(i).copy_from_slice(source);
+        }
+        window.clear_padding();
+        window
+    }
+
     /// Whether a cell is in the set; cells outside the grid are not.
     pub fn contains(&self, col: i64, row: i64) -> bool {
         let inside =

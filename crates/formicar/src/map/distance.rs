@@ -1,6 +1,7 @@
 //! Distance of every cell to the nearest obstacle: exact, Euclidean, truncated.
 
-use super::{BitGrid, Cell};
+use super::{BitGrid, Cell, CellRegion};
+use std::ops::Range;
 
 /// Cells handled together: a few vector registers of 16-bit lanes.
 const LANES: usize = 32;
@@ -36,20 +37,36 @@ impl DistanceField {
     pub fn new(lethal: &BitGrid, truncation_cells: u32) -> Self {
         let truncation = truncation_cells.clamp(1, Self::MAX_TRUNCATION_CELLS) as u16;
         let (n_cols, n_rows) = (lethal.n_cols(), lethal.n_rows());
-        let mut squared = distances_below(lethal, truncation);
-        let mut rows_above = vec![truncation; n_cols.next_multiple_of(64)];
-        let mut sweep = RowSweep::new(n_cols, truncation);
-        for row in (0..n_rows).rev() {
-            extend_runs(&mut rows_above, lethal.row(row), truncation);
-            let cells = &mut squared[row * n_cols..][..n_cols];
-            sweep.load(&rows_above, cells);
-            sweep.store(cells);
-        }
         Self {
             n_cols,
             n_rows,
             truncation_cells: truncation,
-            squared,
+            squared: squared_distances(lethal, truncation, 0..n_rows),
+        }
+    }
+
+    /// The cells whose distance may depend on a rectangle of obstacle cells.
+    pub fn reach(&self, changed: &CellRegion) -> CellRegion {
+        changed.grown(usize::from(self.truncation_cells), self.n_cols, self.n_rows)
+    }
+
+    /// Works out anew what may depend on a changed rectangle of obstacle cells: the same bits as a
+    /// field that is made anew, at a cost that grows with the rectangle grown by twice the
+    /// truncation.
+    pub fn refresh(&mut self, lethal: &BitGrid, changed: &CellRegion) {
+        let inner = self.reach(changed);
+        // Whatever decides these distances lies in here.
+        let outer = self.reach(&inner);
+        let first_col = outer.cols().start / 64 * 64;
+        let window = lethal.window(first_col..outer.cols().end, outer.rows());
+        let low = outer.rows().start;
+        let rows = inner.rows().start - low..inner.rows().end - low;
+        let fresh = squared_distances(&window, self.truncation_cells, rows);
+        for row in inner.rows() {
+            let source = &fresh[(row - low) * window.n_cols()..][..window.n_cols()];
+            let cols = inner.cols();
+            let source = &source[cols.start - first_col..cols.end - first_col];
+            self.squared[row * self.n_cols..][cols].copy_from_slice(source);
         }
     }
 
@@ -99,14 +116,7 @@ impl DistanceField {
     /// None if the radius is negative, not a number, or not below the truncation, where the field
     /// cannot tell.
     pub fn within(&self, radius_cells: f64) -> Option<BitGrid> {
-        if !(0.0..f64::from(self.truncation_cells)).contains(&radius_cells) {
-            return None;
-        }
-        // The largest square whose root, as rounded by `distance_cells`, is within the radius.
-        let mut limit = (radius_cells * radius_cells) as u16 + 1;
-        while f64::from(limit).sqrt() > radius_cells {
-            limit -= 1;
-        }
+        let limit = self.square_within(radius_cells)?;
         let mut cells = BitGrid::new(self.n_cols, self.n_rows);
         for (row, squared) in self.rows().enumerate() {
             for (word, squared) in cells.row_mut(row).iter_mut().zip(squared.chunks(64)) {
@@ -116,6 +126,37 @@ impl DistanceField {
         }
         Some(cells)
     }
+
+    /// The largest squared distance, as [`Self::squared`] tells it, that is within a radius; none
+    /// as for [`Self::within`].
+    pub fn square_within(&self, radius_cells: f64) -> Option<u16> {
+        if !(0.0..f64::from(self.truncation_cells)).contains(&radius_cells) {
+            return None;
+        }
+        // The largest square whose root, as rounded by `distance_cells`, is within the radius.
+        let mut limit = (radius_cells * radius_cells) as u16 + 1;
+        while f64::from(limit).sqrt() > radius_cells {
+            limit -= 1;
+        }
+        Some(limit)
+    }
+}
+
+/// The squared distances of some rows; of the others, something else.
+fn squared_distances(lethal: &BitGrid, truncation: u16, rows: Range<usize>) -> Vec<u16> {
+    let n_cols = lethal.n_cols();
+    let mut squared = distances_below(lethal, truncation);
+    let mut rows_above = vec![truncation; n_cols.next_multiple_of(64)];
+    let mut sweep = RowSweep::new(n_cols, truncation);
+    for row in (rows.start..lethal.n_rows()).rev() {
+        extend_runs(&mut rows_above, lethal.row(row), truncation);
+        if rows.contains(&row) {
+            let cells = &mut squared[row * n_cols..][..n_cols];
+            sweep.load(&rows_above, cells);
+            sweep.store(cells);
+        }
+    }
+    squared
 }
 
 /// For every cell the rows down to the nearest obstacle of its column, at most the truncation.

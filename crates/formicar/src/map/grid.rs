@@ -1,6 +1,6 @@
 //! The occupancy grid and what can be wrong with one.
 
-use super::{BitGrid, Cell, GridFrame};
+use super::{BitGrid, Cell, CellRegion, GridFrame};
 use crate::geometry::{Point2, Pose2};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -70,6 +70,19 @@ pub enum MapError {
         /// The value found.
         value: i8,
     },
+    /// A rectangle of cells that the map does not have.
+    #[error(
+        "region of {} x {} cells from ({}, {}): the map has {n_cols} x {n_rows} cells; hint: leave out what lies off the map",
+        region.n_cols, region.n_rows, region.corner.col, region.corner.row
+    )]
+    RegionOffMap {
+        /// The rectangle given.
+        region: CellRegion,
+        /// Columns of the map.
+        n_cols: usize,
+        /// Rows of the map.
+        n_rows: usize,
+    },
 }
 
 /// How unknown cells count.
@@ -107,16 +120,8 @@ impl OccupancyGrid {
                 n_rows,
             });
         }
-        match values
-            .iter()
-            .position(|v| !(UNKNOWN..=OCCUPIED).contains(v))
-        {
-            Some(i) => Err(MapError::BadValue {
-                cell: frame.cell(i),
-                value: values[i],
-            }),
-            None => Ok(Self { frame, values }),
-        }
+        check_values(&values, |i| frame.cell(i))?;
+        Ok(Self { frame, values })
     }
 
     /// A grid whose cells are all free.
@@ -169,6 +174,19 @@ impl OccupancyGrid {
         self.values[index] = value;
     }
 
+    /// Sets the values of a rectangle of cells, row by row, lowest row first.
+    ///
+    /// # Errors
+    /// A part of it off the map, another number of values than cells, or a value outside
+    /// -1..=100; nothing is changed then.
+    pub fn replace(&mut self, region: &CellRegion, values: &[i8]) -> Result<(), MapError> {
+        region.check(&self.frame, values)?;
+        for (cell, &value) in region.cells().zip(values) {
+            self.set(cell, value);
+        }
+        Ok(())
+    }
+
     /// The same map with unknown cells decided; without this they count as occupied.
     #[must_use]
     pub fn with_unknown(mut self, policy: UnknownPolicy) -> Self {
@@ -210,6 +228,19 @@ impl OccupancyGrid {
     }
 }
 
-fn lethal(value: i8) -> bool {
+/// Whether a value stops the vehicle.
+pub(crate) fn lethal(value: i8) -> bool {
     !(0..OCCUPIED).contains(&value)
+}
+
+/// Whether all values are in -1..=100; a place in the list is a cell.
+pub(super) fn check_values(values: &[i8], cell: impl Fn(usize) -> Cell) -> Result<(), MapError> {
+    let is_bad = |value: &i8| !(UNKNOWN..=OCCUPIED).contains(value);
+    match values.iter().position(is_bad) {
+        Some(i) => Err(MapError::BadValue {
+            cell: cell(i),
+            value: values[i],
+        }),
+        None => Ok(()),
+    }
 }

@@ -2,9 +2,10 @@
 //! meets something.
 
 use super::BitGrid;
+use std::ops::Range;
 
 /// A set of cells that everything off the grid belongs to, up to a reach; in 64-bit words.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PaddedGrid {
     words: Vec<u64>,
     words_per_row: usize,
@@ -19,23 +20,28 @@ impl PaddedGrid {
         let n_words_before = reach_cells.div_ceil(64);
         // A word more at the end, since windows read two at a time.
         let words_per_row = n_words_before + (cells.n_cols() + reach_cells).div_ceil(64) + 1;
-        let mut words = vec![u64::MAX; words_per_row * (cells.n_rows() + 2 * reach_cells)];
-        let n_last = cells.n_cols() % 64;
-        for row in 0..cells.n_rows() {
-            let source = cells.row(row);
-            let first = (row + reach_cells) * words_per_row + n_words_before;
-            let target = &mut words[first..first + source.len()];
-            target.copy_from_slice(source);
-            if n_last != 0 {
-                target[source.len() - 1] |= u64::MAX << n_last;
-            }
-        }
-        Self {
-            words,
+        let mut padded = Self {
+            words: vec![u64::MAX; words_per_row * (cells.n_rows() + 2 * reach_cells)],
             words_per_row,
             n_words_before,
             n_rows_before: reach_cells,
             reach_cells,
+        };
+        padded.refresh(cells, 0..cells.n_rows());
+        padded
+    }
+
+    /// Takes over some rows of the grid anew.
+    pub fn refresh(&mut self, cells: &BitGrid, rows: Range<usize>) {
+        let n_last = cells.n_cols() % 64;
+        for row in rows {
+            let source = cells.row(row);
+            let first = (row + self.n_rows_before) * self.words_per_row + self.n_words_before;
+            let target = &mut self.words[first..first + source.len()];
+            target.copy_from_slice(source);
+            if n_last != 0 {
+                target[source.len() - 1] |= u64::MAX << n_last;
+            }
         }
     }
 

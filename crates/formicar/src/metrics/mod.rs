@@ -6,6 +6,7 @@
 
 mod benchmr;
 mod compatible;
+mod flip;
 mod nodes;
 mod path_metrics;
 mod resample;
@@ -14,6 +15,7 @@ mod steering_share;
 mod winding;
 
 pub use compatible::CompatibleMetrics;
+pub use flip::flip;
 pub use nodes::NodeMetrics;
 pub use path_metrics::{ClearanceSummary, PathMetrics};
 pub use steering_share::SteeringShare;

@@ -127,7 +127,7 @@ pub struct PathPose {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CurvePath {
     start: Pose2,
-    segments: Vec<CurveSegment>,
+    pub(super) segments: Vec<CurveSegment>,
 }
 
 impl CurvePath {

@@ -1,5 +1,6 @@
 //! Paths, one type per stage of planning: cells, way points, drivable curves.
 
+mod ahead;
 mod curve_path;
 mod speed;
 

@@ -119,7 +119,7 @@ impl Planner {
 
     /// How far obstacles are grown from center to center, at most what the distance transform can
     /// tell.
-    fn growth_cells(&self) -> f64 {
+    pub(super) fn growth_cells(&self) -> f64 {
         if self.vehicle.motion() == Motion::Point {
             return 0.0;
         }

@@ -1,5 +1,6 @@
 //! Every parameter of every planner, with its range: one definition for files, flags and docs.
 
+use super::replan::ReplanConfig;
 use super::sections;
 use crate::colony::chord::ChordConfig;
 use crate::colony::drive::DriveConfig;
@@ -34,6 +35,8 @@ pub struct PlannerConfig {
     pub cost: DriveCost,
     /// How `formicar` improves a driven path.
     pub improve: ImproveConfig,
+    /// How `formicar` weighs a previous path when it replans.
+    pub replan: ReplanConfig,
     /// Which steps the planners over cells take: `astar`, `dijkstra`, `improved-astar`, and `ga`
     /// and `aga`, which measure themselves by the shortest path over cells.
     pub grid_search: GridSearchConfig,
@@ -278,6 +281,7 @@ impl PlannerConfig {
             drive: DriveConfig::default(),
             cost: DriveCost::default(),
             improve: ImproveConfig::default(),
+            replan: ReplanConfig::default(),
             grid_search: GridSearchConfig::default(),
             layers: LayersConfig {
                 expansion: Expansion::HalfWidth,
@@ -303,6 +307,7 @@ impl PlannerConfig {
         self.drive.check()?;
         self.cost.check()?;
         self.improve.check()?;
+        self.replan.check()?;
         self.layers.check()?;
         self.colony.check()?;
         self.chords.check()?;

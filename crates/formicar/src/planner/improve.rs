@@ -35,41 +35,31 @@ impl Planner {
         let ground = self.drive_ground()?;
         let problem = DriveProblem::new(&ground, &self.config.hybrid_astar, request);
         limits.tell(&Event::SearchStarted);
-        let rules = Rules {
-            config: &self.config.drive,
-            seed,
-            n_threads: self.n_threads,
-        };
+        let rules = self.rules(seed);
         let won = match race(&problem, &rules, limits) {
             Ok(won) => won,
             Err(status) => return Ok(Err(status.into())),
         };
-        let (best, ended) = self.improve(request, won, &problem, &rules, limits);
-        if ended == Err(Status::Cancelled) {
-            return Ok(Err(Status::Cancelled.into()));
-        }
-        let mut found = self.driven(request, best.0, &best.1);
-        found.cut_by = ended.err();
-        Ok(Ok(found))
+        let improved = self.improve(Some(request), won, (&problem, &rules), limits);
+        improved.found(self, request).map_or_else(|ended| Ok(Err(ended)), |found| Ok(Ok(found)))
     }
 
-    /// Improves the first path, and others that hybrid A* and ants still find. What is best, and
-    /// what ended it before it ceased to gain.
-    fn improve(
+    /// Improves the first path, and others that hybrid A* and ants still find. The observer is
+    /// told of paths that the judge certifies for a request, where one is given.
+    pub(super) fn improve(
         &self,
-        request: &Request,
+        told: Option<&Request>,
         won: Won,
-        problem: &DriveProblem,
-        rules: &Rules,
+        (problem, rules): (&DriveProblem, &Rules),
         limits: &mut Limits,
-    ) -> (Driven, Result<(), Status>) {
+    ) -> Improvement {
         let soft = self.soft_costs.as_deref();
         let price = |position: Point2| soft.map_or(0.0, |costs| costs.price_at(position));
         let task = ImproveProblem {
             obstacles: &self.obstacles,
             body: problem.ground().body(),
             radius_m: problem.ground().radius_m(),
-            motion: request.motion,
+            motion: problem.motion(),
             cost: &self.config.cost,
             soft: soft.is_some().then_some(&price),
         };
@@ -79,25 +69,62 @@ impl Planner {
         };
         let mut best = Best {
             planner: self,
-            request,
+            told,
             improver: Improver::new(&task, &self.config.improve),
             glance: Improver::new(&task, &glance),
-            path: (won.path.0, Vec::new()),
+            path: won.path.clone(),
             cost_m: f64::INFINITY,
             seed: rules.seed,
             n_tried: 0,
         };
-        best.tell_if_certified(won.path.0, &won.path.1, limits);
-        best.path = won.path.clone();
-        let ended = best.run(won, problem, rules, limits);
-        (best.path, ended)
+        best.tell(won.path.0, &won.path.1, limits);
+        let ended = best.run(won, problem, rules, limits).err();
+        Improvement {
+            path: best.path,
+            cost_m: best.cost_m,
+            ended,
+        }
+    }
+
+    /// Tells the observer of a path that the judge certifies.
+    pub(super) fn tell_if_certified(
+        &self,
+        request: &Request,
+        (start, arcs): (Pose2, &[Arc]),
+        limits: &mut Limits,
+    ) {
+        let path = self.driven(request, start, arcs).path;
+        let report = judge(&self.obstacles, &self.vehicle, request, &path);
+        if report.certify().is_ok() {
+            limits.tell_improved(path.length_m());
+        }
+    }
+}
+
+/// What came of an improvement.
+pub(super) struct Improvement {
+    pub(super) path: Driven,
+    pub(super) cost_m: f64,
+    /// What ended it before it ceased to gain.
+    pub(super) ended: Option<Status>,
+}
+
+impl Improvement {
+    /// The path for a request; a cancel leaves none.
+    pub(super) fn found(&self, planner: &Planner, request: &Request) -> Result<Found, Ended> {
+        if self.ended == Some(Status::Cancelled) {
+            return Err(Status::Cancelled.into());
+        }
+        let mut found = planner.driven(request, self.path.0, &self.path.1);
+        found.cut_by = self.ended;
+        Ok(found)
     }
 }
 
 /// The best path so far, and what makes paths better.
 struct Best<'a> {
     planner: &'a Planner,
-    request: &'a Request,
+    told: Option<&'a Request>,
     improver: Improver<'a>,
     /// One that tells soon whether a path is worth more.
     glance: Improver<'a>,
@@ -199,19 +226,18 @@ impl Best<'_> {
         }
         let seed = self.next_seed();
         let is_first = self.cost_m.is_infinite();
-        let improver = &self.improver;
-        let (planner, request) = (self.planner, self.request);
+        let (planner, told) = (self.planner, self.told.filter(|_| is_first));
         let mut tell = |arcs: &[Arc], limits: &mut Limits| {
-            if is_first {
-                tell_if_certified(planner, request, (start, arcs), limits);
+            if let Some(request) = told {
+                planner.tell_if_certified(request, (start, arcs), limits);
             }
         };
-        let improved = improver.improve((start, &arcs), seed, limits, &mut tell);
+        let improved = self.improver.improve((start, &arcs), seed, limits, &mut tell);
         if improved.cost_m < self.cost_m {
             self.cost_m = improved.cost_m;
             self.path = (start, improved.arcs);
             if !is_first {
-                self.tell_if_certified(start, &self.path.1, limits);
+                self.tell(start, &self.path.1, limits);
             }
         }
         improved.ended.map_or(Ok(()), Err)
@@ -237,22 +263,10 @@ impl Best<'_> {
         Seed(self.seed.stream([self.n_tried, 1]).next_u64())
     }
 
-    fn tell_if_certified(&self, start: Pose2, arcs: &[Arc], limits: &mut Limits) {
-        tell_if_certified(self.planner, self.request, (start, arcs), limits);
-    }
-}
-
-/// Tells the observer of a path that the judge certifies.
-fn tell_if_certified(
-    planner: &Planner,
-    request: &Request,
-    (start, arcs): (Pose2, &[Arc]),
-    limits: &mut Limits,
-) {
-    let path = planner.driven(request, start, arcs).path;
-    let report = judge(&planner.obstacles, &planner.vehicle, request, &path);
-    if report.certify().is_ok() {
-        let (length_m, n_steps) = (path.length_m(), limits.n_steps());
-        limits.tell(&Event::Improved { length_m, n_steps });
+    fn tell(&self, start: Pose2, arcs: &[Arc], limits: &mut Limits) {
+        if let Some(request) = self.told {
+            self.planner
+                .tell_if_certified(request, (start, arcs), limits);
+        }
     }
 }

@@ -15,10 +15,12 @@ mod improve;
 mod outcome;
 mod path_document;
 mod race;
+mod replan;
 mod request_document;
 mod run;
 mod sealed;
 mod sections;
+mod update;
 mod via;
 mod via_record;
 
@@ -31,6 +33,7 @@ pub use config::{ConfigError, GridSearchConfig, PlannerConfig, PlannerName};
 pub use explanation::{Collision, Disconnected, Explanation, Gap};
 pub use outcome::{NotFound, Outcome, Plan, PlanError, Stages};
 pub use path_document::{POSE_SPACING_M, PathDocument, PoseRecord, SegmentRecord};
+pub use replan::ReplanConfig;
 pub use request_document::RequestDocument;
 pub use via_record::ViaRecord;
 
@@ -136,11 +139,7 @@ impl Planner {
         seed: Seed,
         observer: &mut dyn Observer,
     ) -> Result<Outcome, PlanError> {
-        request.check(&self.obstacles, &self.vehicle)?;
-        if request.deadline.is_some() && observer.elapsed().is_none() {
-            return Err(PlanError::DeadlineWithoutClock);
-        }
-        let mut limits = Limits::new(observer, request.budget_steps, request.deadline);
+        let mut limits = self.begin(request, observer)?;
         let found = match self.sealed_off(request) {
             Some(sealed) => Err(sealed),
             None => self.find(request, seed, &mut limits)?,
@@ -150,6 +149,20 @@ impl Planner {
             Err(ended) => Err(ended),
         };
         Ok(self.conclude(request, seed, found, &mut limits))
+    }
+
+    /// The limits of a query, where it can be asked.
+    fn begin<'o>(
+        &self,
+        request: &Request,
+        observer: &'o mut dyn Observer,
+    ) -> Result<Limits<'o>, PlanError> {
+        request.check(&self.obstacles, &self.vehicle)?;
+        if request.deadline.is_some() && observer.elapsed().is_none() {
+            return Err(PlanError::DeadlineWithoutClock);
+        }
+        let (budget_steps, deadline) = (request.budget_steps, request.deadline);
+        Ok(Limits::new(observer, budget_steps, deadline))
     }
 }
 

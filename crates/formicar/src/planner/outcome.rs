@@ -144,6 +144,15 @@ pub enum PlanError {
         /// The planner.
         planner: PlannerName,
     },
+    /// New cells that do not fit the map.
+    #[error(transparent)]
+    Map(#[from] crate::map::MapError),
+    /// A planner that cannot start from a previous path.
+    #[error("{} does not replan; hint: use formicar, or plan anew", planner.name())]
+    CannotReplan {
+        /// The planner.
+        planner: PlannerName,
+    },
     /// The vehicle does not suit the search.
     #[error(transparent)]
     Vehicle(#[from] crate::vehicle::VehicleError),
@@ -169,7 +178,7 @@ impl PlanError {
         match self {
             Self::Scenario(error) => error.into(),
             Self::NotFound(failure) => failure.status.into(),
-            Self::NeedsACar { .. } => ErrorCode::InvalidPlanner,
+            Self::NeedsACar { .. } | Self::CannotReplan { .. } => ErrorCode::InvalidPlanner,
             _ => ErrorCode::Unknown,
         }
     }

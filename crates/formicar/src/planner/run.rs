@@ -76,7 +76,7 @@ impl Planner {
         if request.via.is_empty() {
             self.reach(request, seed, limits)
         } else {
-            self.search_legs(request, seed, limits)
+            limits.in_parts(|limits| self.search_legs(request, seed, limits))
         }
     }
 
@@ -188,10 +188,7 @@ impl Planner {
         };
         match judge(&self.obstacles, &self.vehicle, request, &found.path).certify() {
             Ok(certificate) => {
-                limits.tell(&Event::Improved {
-                    length_m: found.path.length_m(),
-                    n_steps,
-                });
+                limits.tell_improved(found.path.length_m());
                 let min_m = certificate.min_clearance_m;
                 let clearance =
                     ClearanceSummary::new(&self.obstacles, &self.vehicle, &found.path, min_m);

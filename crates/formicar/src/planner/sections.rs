@@ -7,11 +7,12 @@ use serde::{Deserialize, Deserializer, Serializer};
 use serde_json::{Map, Value};
 
 /// Names of the sections.
-const SECTIONS: [&str; 11] = [
+const SECTIONS: [&str; 12] = [
     "hybrid_astar",
     "drive",
     "cost",
     "improve",
+    "replan",
     "grid_search",
     "improved_astar",
     "layers",
@@ -38,6 +39,7 @@ pub(super) fn write<S: Serializer>(
             "drive" => map.serialize_entry(name, &config.drive)?,
             "cost" => map.serialize_entry(name, &config.cost)?,
             "improve" => map.serialize_entry(name, &config.improve)?,
+            "replan" => map.serialize_entry(name, &config.replan)?,
             "grid_search" => map.serialize_entry(name, &config.grid_search)?,
             "improved_astar" => map.serialize_entry(name, &config.improved_astar)?,
             "layers" => map.serialize_entry(name, &config.layers)?,
@@ -53,7 +55,7 @@ pub(super) fn write<S: Serializer>(
 /// The sections that a planner uses.
 fn sections_of(planner: PlannerName) -> &'static [&'static str] {
     match planner {
-        PlannerName::Formicar => &["hybrid_astar", "drive", "cost", "improve"],
+        PlannerName::Formicar => &["hybrid_astar", "drive", "cost", "improve", "replan"],
         PlannerName::HybridAstar => &["hybrid_astar"],
         PlannerName::Astar | PlannerName::Dijkstra => &["grid_search", "smoothing"],
         PlannerName::ImprovedAstar => &["grid_search", "improved_astar", "smoothing"],
@@ -83,6 +85,7 @@ pub(super) fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Planner
         drive: section(&mut given, "drive", defaults.drive)?,
         cost: section(&mut given, "cost", defaults.cost)?,
         improve: section(&mut given, "improve", defaults.improve)?,
+        replan: section(&mut given, "replan", defaults.replan)?,
         grid_search: section(&mut given, "grid_search", defaults.grid_search)?,
         improved_astar: section(&mut given, "improved_astar", defaults.improved_astar)?,
         layers: section(&mut given, "layers", defaults.layers)?,

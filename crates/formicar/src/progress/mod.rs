@@ -108,6 +108,10 @@ pub struct Limits<'a> {
     budget_steps: Option<u64>,
     deadline: Option<Duration>,
     n_steps: u64,
+    /// Length of the path that was last told.
+    told_m: Option<f64>,
+    /// Whether paths are parts of one, of which nothing is told.
+    tells_no_paths: bool,
 }
 
 impl<'a> Limits<'a> {
@@ -125,6 +129,8 @@ impl<'a> Limits<'a> {
             budget_steps,
             deadline,
             n_steps: 0,
+            told_m: None,
+            tells_no_paths: false,
         }
     }
 
@@ -200,6 +206,8 @@ impl<'a> Limits<'a> {
             budget_steps: None,
             deadline: self.deadline,
             n_steps: 0,
+            told_m: self.told_m,
+            tells_no_paths: self.tells_no_paths,
         }
     }
 
@@ -209,6 +217,25 @@ impl<'a> Limits<'a> {
             n_steps: 1,
             ..self.without_budget()
         }
+    }
+
+    /// Tells the observer of a certified path of a length, unless it is the one told last.
+    pub fn tell_improved(&mut self, length_m: f64) {
+        if self.told_m == Some(length_m) || self.tells_no_paths {
+            return;
+        }
+        self.told_m = Some(length_m);
+        let n_steps = self.n_steps;
+        self.tell(&Event::Improved { length_m, n_steps });
+    }
+
+    /// Does some work whose paths are parts of the one that is asked for: the observer is not told
+    /// of them.
+    pub fn in_parts<T>(&mut self, work: impl FnOnce(&mut Self) -> T) -> T {
+        let before = std::mem::replace(&mut self.tells_no_paths, true);
+        let result = work(self);
+        self.tells_no_paths = before;
+        result
     }
 
     /// Tells the observer something.

@@ -15,7 +15,9 @@ mod wave;
 
 pub use astar::{AstarWorkspace, astar};
 pub use cost::{DIAGONAL_COST, STRAIGHT_COST};
-pub use drive::{DriveGround, DriveProblem, Guide, HybridAstarConfig, Inflation, Side, State};
+pub use drive::{
+    DriveGround, DriveProblem, GroundParts, Guide, HybridAstarConfig, Inflation, Side, State,
+};
 pub use goal_field::GoalField;
 pub(crate) use grid_search::check_end;
 pub use grid_search::{GridSearch, SearchError};

@@ -1,11 +1,12 @@
 //! A map prepared for the motions of a vehicle, once for all queries.
 
+use super::ground_cells::GroundCells;
 use super::{HybridAstarConfig, Inflation};
 use crate::collision::{Body, ObstacleMap};
 use crate::layers::DriveMasks;
-use crate::map::{BitGrid, Cell, DiagonalRule, MoveMasks, PaddedGrid};
+use crate::map::{CellRegion, MoveMasks, PaddedGrid};
 use crate::vehicle::{Gears, PrimitiveSet, Vehicle, VehicleError};
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 /// A step leads out of its state: it is longer than the state's diagonal.
 const STATES_PER_STEP: f64 = 1.5;
@@ -14,13 +15,37 @@ const STATES_PER_STEP: f64 = 1.5;
 #[derive(Debug)]
 pub struct DriveGround {
     obstacles: Arc<ObstacleMap>,
+    parts: GroundParts,
+}
+
+/// A [`DriveGround`] without its map, while that is changed.
+#[derive(Clone, Debug)]
+pub struct GroundParts {
+    motions: Arc<Motions>,
+    cells: GroundCells,
+}
+
+impl GroundParts {
+    /// The ground on a map that has changed in a rectangle at most. The cost is that of the
+    /// rectangle; masks and the moves of the rest are kept.
+    pub fn on(mut self, obstacles: Arc<ObstacleMap>, changed: Option<&CellRegion>) -> DriveGround {
+        if let Some(changed) = changed {
+            self.cells.refresh(&obstacles, changed);
+        }
+        DriveGround {
+            obstacles,
+            parts: self,
+        }
+    }
+}
+
+/// What depends on vehicle and resolution, and not on the cells of the map.
+#[derive(Debug)]
+struct Motions {
     body: Body,
-    padded: PaddedGrid,
     coarse: Lattice,
     fine: Lattice,
     radius_m: f64,
-    inflations_m: [f64; 3],
-    moves: [OnceLock<MoveMasks>; 3],
 }
 
 /// The motions of a vehicle, what they sweep, and the size of the states they lead to.
@@ -61,16 +86,23 @@ impl DriveGround {
         )?;
         let reach = coarse.masks.reach_cells().max(fine.masks.reach_cells());
         let body = Body::new(vehicle);
-        Ok(Self {
-            padded: PaddedGrid::new(obstacles.lethal(), reach),
-            inflations_m: inflations_m(&body, vehicle),
-            moves: Default::default(),
-            obstacles,
+        let cells = GroundCells::new(&obstacles, reach, inflations_m(&body, vehicle));
+        let motions = Arc::new(Motions {
             body,
             coarse,
             fine,
             radius_m,
-        })
+        });
+        Ok(GroundParts { motions, cells }.on(obstacles, None))
+    }
+
+    /// Lets go of the map, so that it can be changed where it is; what others still hold is
+    /// copied.
+    pub fn into_parts(ground: Arc<Self>) -> GroundParts {
+        match Arc::try_unwrap(ground) {
+            Ok(ground) => ground.parts,
+            Err(shared) => shared.parts.clone(),
+        }
     }
 
     /// The prepared map.
@@ -80,83 +112,31 @@ impl DriveGround {
 
     /// The vehicle's body.
     pub fn body(&self) -> &Body {
-        &self.body
+        &self.parts.motions.body
     }
 
     /// The least turning radius, metres.
     pub fn radius_m(&self) -> f64 {
-        self.radius_m
+        self.parts.motions.radius_m
     }
 
     pub(super) fn padded(&self) -> &PaddedGrid {
-        &self.padded
+        &self.parts.cells.padded
     }
 
     pub(super) fn coarse(&self) -> &Lattice {
-        &self.coarse
+        &self.parts.motions.coarse
     }
 
     pub(super) fn fine(&self) -> &Lattice {
-        &self.fine
+        &self.parts.motions.fine
     }
 
     /// Moves between the cells of a field that are free when obstacles are grown by one of the
     /// radii, and how many cells of the map a cell of the field is wide.
     pub(super) fn moves(&self, inflation: Inflation) -> (&MoveMasks, u32) {
-        let place = inflation as usize;
-        let resolution_m = self.obstacles.frame().resolution_m();
-        // Only what blocks a position wherever it lies in its cell: from the cell's center to the
-        // position half a diagonal, from the obstacle's center to its side half a cell.
-        let radius =
-            self.inflations_m[place] / resolution_m - (std::f64::consts::FRAC_1_SQRT_2 - 0.5);
-        let stride = match inflation {
-            Inflation::Sure => 1,
-            _ => stride(radius),
-        };
-        let moves = self.moves[place].get_or_init(|| {
-            let distance = self.obstacles.distance();
-            let truncation = f64::from(distance.truncation_cells());
-            let blocked = distance.within(radius.clamp(0.0, truncation - 0.5));
-            let blocked = blocked.unwrap_or_else(|| self.obstacles.lethal().clone());
-            MoveMasks::new(
-                &thinned(&blocked, stride as usize),
-                DiagonalRule::AtMostOneObstacle,
-            )
-        });
-        (moves, stride)
+        self.parts.cells.moves(&self.obstacles, inflation)
     }
-}
-
-/// How many cells of the map a cell of the field may be wide: an odd number, so that both have
-/// their centers in one place. Half a diagonal step is then shorter than the radius by which
-/// obstacles were grown, so that no step between free cells leads over one.
-fn stride(radius_cells: f64) -> u32 {
-    let most = (radius_cells / CELLS_PER_STRIDE) as u32;
-    (most.max(1) - 1) / 2 * 2 + 1
-}
-
-/// The radius by which obstacles are grown is at least so many strides.
-const CELLS_PER_STRIDE: f64 = 1.1;
-
-/// The cells in the middle of blocks of `stride` times `stride` cells.
-fn thinned(cells: &BitGrid, stride: usize) -> BitGrid {
-    if stride == 1 {
-        return cells.clone();
-    }
-    let (n_cols, n_rows) = (
-        cells.n_cols().div_ceil(stride),
-        cells.n_rows().div_ceil(stride),
-    );
-    let mut thinned = BitGrid::new(n_cols, n_rows);
-    let middle = |i: usize, n: usize| (i * stride + stride / 2).min(n - 1);
-    for row in 0..n_rows {
-        for col in 0..n_cols {
-            if cells.get(middle(col, cells.n_cols()), middle(row, cells.n_rows())) {
-                thinned.insert(Cell::new(col as u32, row as u32));
-            }
-        }
-    }
-    thinned
 }
 
 /// Radii by which to grow obstacles for the goal field, most first: halfway to what the body

@@ -3,11 +3,12 @@
 
 mod config;
 mod ground;
+mod ground_cells;
 mod guide;
 mod problem;
 mod shots;
 
 pub use config::HybridAstarConfig;
-pub use ground::DriveGround;
+pub use ground::{DriveGround, GroundParts};
 pub use guide::Guide;
 pub use problem::{DriveProblem, Inflation, Side, State};

@@ -20,6 +20,11 @@ pub enum Inflation {
     Sure,
 }
 
+impl Inflation {
+    /// All of them, most growth first.
+    pub const ALL: [Self; 3] = [Self::Turning, Self::Wide, Self::Sure];
+}
+
 /// From which end a search goes out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
