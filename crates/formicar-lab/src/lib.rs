@@ -11,6 +11,7 @@ mod li2024;
 pub mod report;
 mod reproduction;
 pub mod statistics;
+pub mod stress;
 mod trial;
 mod wang2019;
 
