@@ -10,6 +10,7 @@ mod lei2020;
 mod li2024;
 pub mod report;
 mod reproduction;
+pub mod standing;
 pub mod statistics;
 pub mod stress;
 mod trial;

@@ -153,3 +153,55 @@ fn check_budget(case: &mut Case, drawn: &Drawn, n_steps: u64) {
         case.violates(format!("{n_steps} steps exceed the budget"));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::ground::Kind;
+    use super::*;
+    use formicar::map::OCCUPIED;
+
+    #[test]
+    fn a_path_into_an_obstacle_is_noticed_twice() {
+        let config = PlannerConfig::default();
+        let drawn = (0..).map(|seed| Drawn::of(seed, 20_000));
+        let mut open = drawn.filter(|d| d.kind == Kind::Open && d.stands_free);
+        let (mut drawn, answer) = open
+            .find_map(|drawn| {
+                let mut planner =
+                    Planner::new(&drawn.map, drawn.vehicle.clone(), config.clone()).unwrap();
+                let answer = planner.plan(&drawn.request, Seed(1), &mut ()).unwrap();
+                (answer.status() == Status::Found).then_some((drawn, answer))
+            })
+            .unwrap();
+        let Outcome::Found(plan) = &answer else {
+            unreachable!("it was found")
+        };
+        let mut case = Case::begin(&drawn);
+        look_at_plan(&mut case, &drawn, plan);
+        assert_eq!(case.violations, [""; 0]);
+        let end = plan.path.end().position();
+        let cell = drawn.map.frame().cell_at(end).unwrap();
+        drawn.map.set(cell, OCCUPIED);
+        look_at_plan(&mut case, &drawn, plan);
+        let says = |words: &str| case.violations.iter().any(|v| v.contains(words));
+        assert!(says("the judge refuses"), "{:?}", case.violations);
+        assert!(says("the clearance is"), "{:?}", case.violations);
+        assert!(says("not of this path"), "{:?}", case.violations);
+    }
+
+    #[test]
+    fn failures_without_a_reason_and_beyond_the_budget_are_noticed() {
+        let drawn = Drawn::of(1, 100);
+        let failure = NotFound {
+            status: Status::TimedOut,
+            reason: " ".to_owned(),
+            explanation: formicar::planner::Explanation::default(),
+            refused: None,
+            stages: formicar::planner::Stages::default(),
+            n_steps: 101,
+        };
+        let mut case = Case::begin(&drawn);
+        look_at_failure(&mut case, &drawn, &failure);
+        assert_eq!(case.violations.len(), 3, "{:?}", case.violations);
+    }
+}

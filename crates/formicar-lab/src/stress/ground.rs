@@ -103,7 +103,7 @@ fn corridors(map: &mut OccupancyGrid, way_cells: usize, random: &mut RandomStrea
     let (n_across, n_along) = sides(map, along_rows);
     let spacing = way_cells + 1 + random.below(2 * way_cells + 1);
     for wall in (spacing..n_across).step_by(spacing + 1) {
-        let doors: Vec<usize> = (0..1 + random.below(2))
+        let doors: Vec<usize> = (0..=random.below(2))
             .map(|_| random.below(n_along))
             .collect();
         let is_door = |i: usize| {
@@ -207,7 +207,7 @@ fn open_wall(map: &mut OccupancyGrid, way_cells: usize, [a, b]: [(usize, usize);
 /// Cells here and there.
 fn spots(map: &mut OccupancyGrid, value: i8, random: &mut RandomStream) {
     let (n_cols, n_rows) = (map.frame().n_cols(), map.frame().n_rows());
-    for _ in 0..1 + random.below(12) {
+    for _ in 0..=random.below(12) {
         let cell = Cell::new(random.below(n_cols) as u32, random.below(n_rows) as u32);
         map.set(cell, value);
     }

@@ -1,7 +1,7 @@
 //! The race for a first path: ants that drive against hybrid A*, in turns of so many steps, so
 //! that who wins does not depend on a clock.
 
-use crate::colony::drive::{DriveColony, DriveConfig};
+use crate::colony::drive::{DriveColony, DriveConfig, Racers};
 use crate::geometry::{Arc, Pose2};
 use crate::numeric::Seed;
 use crate::progress::{Limits, Status};
@@ -42,13 +42,22 @@ pub(super) fn first_path(
             ..stage
         };
         let seed = Seed(seed.stream([place as u64, 0]).next_u64());
-        let ants = (place < N_ANT_STAGES && config.n_ants > 0)
+        let has_ants = config.n_ants > 0 && config.race != Racers::HybridAstar;
+        let ants = (place < N_ANT_STAGES && has_ants)
             .then(|| DriveColony::new(&stage.problem, config, seed));
-        if let Some(path) = run(&stage, ants, limits)? {
+        let path = match config.race {
+            Racers::Ants => run_ants(&stage, ants, limits)?,
+            Racers::Both | Racers::HybridAstar => run(&stage, ants, limits)?,
+        };
+        if let Some(path) = path {
             return Ok(path);
         }
     }
-    Err(Status::NoPath)
+    match config.race {
+        // Ants do not look everywhere.
+        Racers::Ants => Err(Status::BudgetExhausted),
+        Racers::Both | Racers::HybridAstar => Err(Status::NoPath),
+    }
 }
 
 /// A curve from a start to a goal that meets nothing.
@@ -60,6 +69,26 @@ fn straight_shot(problem: &DriveProblem) -> Option<Driven> {
     shots
         .min_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, path)| path)
+}
+
+/// One stage without hybrid A*.
+fn run_ants(
+    stage: &Stage,
+    ants: Option<DriveColony>,
+    limits: &mut Limits,
+) -> Result<Option<Driven>, Status> {
+    let Some(mut ants) = ants else {
+        return Ok(None);
+    };
+    let Some(mut guide) = Guide::new(&stage.problem, stage.inflation, limits)? else {
+        return Ok(None);
+    };
+    for _ in 0..N_GENERATIONS {
+        if let Some(path) = ants.send(&mut guide, limits)? {
+            return Ok(Some(path));
+        }
+    }
+    Ok(None)
 }
 
 /// One stage of the race.

@@ -1,6 +1,7 @@
 //! The process of one run: plans, measures itself, and prints its row.
 
 use super::job::Job;
+use super::measure;
 use super::row::{KNOWN_BY, Row};
 use super::suite::Place;
 use super::usage;
@@ -42,8 +43,15 @@ pub(crate) fn run_one(job: &str, out: &mut impl Write) -> Result<Ending, Failure
     let mut row = Row::begin(&job);
     row.fill(&used);
     fill(&mut row, &answered);
+    let planner = &session.planner;
+    let asked = request.onto(&RequestDocument::default()).ok();
+    if let Some(asked) = &asked {
+        measure::ground(&mut row, planner, [asked.start, asked.goal]);
+    }
     if let Ok(Outcome::Found(plan)) = &answered.result {
-        let planner = &session.planner;
+        if let Some(asked) = &asked {
+            measure::path(&mut row, planner, asked, plan);
+        }
         let compatible = CompatibleMetrics::new(&plan.path, planner.vehicle(), planner.obstacles());
         row.fill(&to_value(&compatible));
     }
@@ -86,18 +94,20 @@ fn fill_found(row: &mut Row, plan: &Plan, answered: &Answered) {
     if let Some(grid_path) = &plan.stages.grid_path {
         row.set("length_cells", &json!(length_cells(grid_path)));
     }
-    let first_s = answered.answer.timing.first_feasible_s;
+    if let Some(first) = answered.paths.first() {
+        row.set("first_length_m", &json!(first.length_m));
+        row.set("first_steps", &json!(first.n_steps));
+    }
     for (limit_s, columns) in KNOWN_BY {
-        // The only path is the best at any time after it was found. Of a planner that replaces its
-        // path only the last is known, which counts from the end of the query.
-        let known_from_s = if answered.n_improvements == 0 {
-            first_s
-        } else {
-            Some(answered.answer.timing.query_s)
+        let mut by_then = answered.paths.iter().rev();
+        let known = by_then.find(|told| told.at.as_secs_f64() <= limit_s);
+        let Some(known) = known else {
+            continue;
         };
-        if known_from_s.is_some_and(|s| s <= limit_s) {
-            let [length, clearance, cusps] = columns;
-            row.set(length, &json!(plan.metrics.length_m));
+        let [length, clearance, cusps] = columns;
+        row.set(length, &json!(known.length_m));
+        // Of a path that was replaced nothing but its length is known.
+        if known.length_m == plan.metrics.length_m {
             row.set(clearance, &json!(plan.metrics.min_clearance_m));
             row.set(cusps, &json!(plan.metrics.n_cusps));
         }

@@ -12,4 +12,4 @@ mod repair;
 
 pub use ant::Way;
 pub use colony::DriveColony;
-pub use config::{DriveConfig, FieldRepair};
+pub use config::{DriveConfig, FieldRepair, Racers};
