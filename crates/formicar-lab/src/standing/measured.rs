@@ -26,6 +26,8 @@ pub struct Measured {
     pub map_setup_s: Option<f64>,
     /// Time to the first certified path, seconds.
     pub first_feasible_s: Option<f64>,
+    /// The same of a planner that has just been made, seconds.
+    pub cold_first_s: Option<f64>,
     /// The whole query, seconds.
     pub query_s: Option<f64>,
     /// Judging the path once more, seconds.

@@ -52,6 +52,12 @@ pub(crate) struct BenchArgs {
           value_parser = values::word::<MotionMode>(&["forward", "reverse"]))]
     pub(crate) motion: Option<MotionMode>,
 
+    /// Measure the first query of a planner; otherwise every query is asked twice in its process,
+    /// and the second asking counts: that of a warm planner, which keeps nothing but what it knows
+    /// of map and vehicle.
+    #[arg(long)]
+    pub(crate) cold: bool,
+
     /// Keep every answer as DIR/paths/SCENARIO.PLANNER.SEED.json.
     #[arg(long)]
     pub(crate) paths: bool,
@@ -82,9 +88,10 @@ impl BenchArgs {
     /// What all rows of a table share: runs under other conditions do not belong in it.
     pub(crate) fn conditions(&self) -> Value {
         json!({
-            "schema": "formicar/bench/1",
+            "schema": "formicar/bench/2",
             "version": env!("CARGO_PKG_VERSION"),
             "processor": machine::processor(),
+            "cold": self.cold,
             "motion": self.motion.unwrap_or_default(),
             "budget_steps": self.budget,
             "deadline_ms": self.deadline,

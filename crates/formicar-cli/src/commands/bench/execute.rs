@@ -86,7 +86,7 @@ mod tests {
         serde_json::from_value(json!({
             "task": {"scenario": "a", "source": "b", "place": {"builtin": {"map": "m", "request": "r"}}},
             "planner": "astar", "name": "astar", "seed": 3, "motion": null, "budget_steps": null,
-            "deadline_ms": null, "set": [], "answer": null,
+            "deadline_ms": null, "set": [], "is_cold": false, "answer": null,
         }))
         .unwrap()
     }

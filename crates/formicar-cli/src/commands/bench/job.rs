@@ -28,6 +28,8 @@ pub(super) struct Job {
     budget_steps: Option<u64>,
     deadline_ms: Option<f64>,
     pub(super) set: Vec<String>,
+    /// Whether the first asking counts.
+    pub(super) is_cold: bool,
     /// Where the answer is kept.
     pub(super) answer: Option<PathBuf>,
 }
@@ -45,6 +47,7 @@ impl Job {
             budget_steps: args.budget,
             deadline_ms: args.deadline,
             set: variant.set.clone(),
+            is_cold: args.cold,
             answer,
         }
     }

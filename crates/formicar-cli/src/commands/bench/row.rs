@@ -4,7 +4,7 @@ use super::job::{Job, Key};
 use serde_json::{Map, Value};
 
 /// The columns, in their order.
-pub(super) const COLUMNS: [&str; 53] = [
+pub(super) const COLUMNS: [&str; 54] = [
     "scenario",
     "planner",
     "seed",
@@ -24,6 +24,7 @@ pub(super) const COLUMNS: [&str; 53] = [
     "length_1s_m",
     "min_clearance_1s_m",
     "n_cusps_1s",
+    "cold_first_s",
     "first_length_m",
     "first_steps",
     "cost_m",
