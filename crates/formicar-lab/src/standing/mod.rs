@@ -28,14 +28,14 @@ pub struct Standing {
 }
 
 impl Standing {
-    /// Of rows of `results.csv`, and of the text of a `peers.csv` where there is one.
+    /// Of the text of a `results.csv`, and of peers where there are any.
     ///
     /// # Errors
     /// A table with other columns, or with values that are none.
-    pub fn read(results: &str, peers: Option<&str>, forward_only: bool) -> Result<Self> {
+    pub fn read(results: &str, peers: Vec<Peer>, forward_only: bool) -> Result<Self> {
         Ok(Self {
             runs: measured::read(results)?,
-            peers: peers.map_or(Ok(Vec::new()), peers::read)?,
+            peers,
             forward_only,
         })
     }

@@ -99,12 +99,32 @@ pub(super) fn smallest(values: &[f64]) -> Option<f64> {
     values.iter().copied().min_by(f64::total_cmp)
 }
 
-/// A quantile; forever where it lies between values of which one is.
+/// A quantile of values of which some may be infinite: forever where it lies between values of
+/// which one is.
 fn finite_or_forever(values: &[f64], p: f64) -> Option<f64> {
-    let quantile = quantile(values, p)?;
-    Some(if quantile.is_nan() {
-        f64::INFINITY
-    } else {
-        quantile
-    })
+    let between = quantile(values, p)?;
+    if !between.is_nan() {
+        return Some(between);
+    }
+    // Infinity less itself, or none of infinity: the value lies on its lower neighbor.
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted
+        .get((p * (sorted.len() - 1) as f64) as usize)
+        .copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_with_values_that_take_forever() {
+        let forever = f64::INFINITY;
+        assert_eq!(median(&[1.0, 2.0, forever]), Some(2.0));
+        assert_eq!(median(&[1.0, forever]), Some(forever));
+        assert_eq!(median(&[forever, forever]), Some(forever));
+        assert_eq!(p90(&[3.0]), Some(3.0));
+        assert_eq!(median(&[]), None);
+    }
 }

@@ -27,6 +27,16 @@ pub struct Peer {
 }
 
 impl Peer {
+    /// The rows of a `peers.csv`.
+    ///
+    /// # Errors
+    /// A table with other columns, or with values that are none.
+    pub fn read(text: &str) -> Result<Vec<Self>> {
+        let mut reader = csv::Reader::from_reader(text.as_bytes());
+        let rows: csv::Result<_> = reader.deserialize().collect();
+        rows.context("a table of peers")
+    }
+
     /// Whether its path can be driven.
     pub(super) fn is_valid(&self) -> bool {
         self.solved == 1 && self.valid == Some(1)
@@ -36,10 +46,4 @@ impl Peer {
     pub(super) fn is_dubins(&self) -> bool {
         self.peer.ends_with("dubins")
     }
-}
-
-pub(super) fn read(text: &str) -> Result<Vec<Peer>> {
-    let mut reader = csv::Reader::from_reader(text.as_bytes());
-    let rows: csv::Result<_> = reader.deserialize().collect();
-    rows.context("peers.csv")
 }

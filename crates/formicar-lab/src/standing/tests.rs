@@ -34,7 +34,7 @@ fn run(scenario: &str, seed: u64, first_s: f64) -> Measured {
 fn standing(runs: Vec<Measured>) -> Standing {
     Standing {
         runs,
-        peers: peers::read(PEERS).unwrap(),
+        peers: Peer::read(PEERS).unwrap(),
         forward_only: false,
     }
 }
@@ -145,9 +145,9 @@ fn without_peers_the_report_says_so() {
 
 #[test]
 fn tables_with_missing_values_are_read() {
-    let peers = peers::read(PEERS).unwrap();
+    let peers = Peer::read(PEERS).unwrap();
     assert_eq!((peers[3].solved, peers[3].length_1s_m), (0, None));
-    assert!(peers::read("scenario,peer\na,b\n").is_err());
+    assert!(Peer::read("scenario,peer\na,b\n").is_err());
     let columns = "scenario,planner,seed,status,valid,source,length_0.1s_m,length_1s_m\n";
     let runs = measured::read(&format!("{columns}a,formicar,3,found,true,m,,9.5\n"));
     let run = &runs.unwrap()[0];

@@ -110,10 +110,10 @@ mod tests {
         assert!(count(&|d| !d.request.via.is_empty()) > 3);
         assert!(count(&|d| !d.request.other_goals.is_empty()) > 3);
         assert!(
-            count(&|d| d.stands_free) > 40,
+            count(&|d| d.stands_free) > 35,
             "most scenarios can be asked"
         );
-        assert!(count(&|d| d.is_sealed) > 2);
+        assert!(count(&|d| d.is_sealed) > 0);
         let cells = |d: &draw::Drawn| d.map.frame().n_cells();
         assert!(drawn.iter().all(|d| cells(d) <= 200 * 200));
     }

@@ -32,6 +32,7 @@ use variant::Variant;
 /// Carries out `bench`.
 pub(crate) fn run(args: &BenchArgs, out: &mut impl Write) -> Result<Ending, Failure> {
     let jobs = jobs(args)?;
+    let peers = standing::peers(&jobs)?;
     let (mut results, missing) = open(args, &jobs)?;
     let n_kept = jobs.len() - missing.len();
     execute::all(&missing, args.jobs, |row| results.append(row))?;
@@ -43,7 +44,7 @@ pub(crate) fn run(args: &BenchArgs, out: &mut impl Write) -> Result<Ending, Fail
             .with_context(|| format!("{} cannot be written", path.display()))
     };
     write("summary.md", table.markdown())?;
-    for (name, text) in standing::files(args, &jobs, &results)? {
+    for (name, text) in standing::files(args, peers, &results)? {
         write(name, text)?;
     }
     table.write_plain(out)?;

@@ -8,7 +8,7 @@ use crate::files;
 use anyhow::{Context, Result};
 use formicar::scenario::MotionMode;
 use formicar_lab::report::{Fact, Page, markdown, page};
-use formicar_lab::standing::Standing;
+use formicar_lab::standing::{Peer, Standing};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
@@ -18,17 +18,17 @@ const PEERS: &str = "peers.csv";
 /// Names and contents.
 pub(super) fn files(
     args: &BenchArgs,
-    jobs: &[Job],
+    peers: Vec<Peer>,
     results: &Results,
 ) -> Result<[(&'static str, String); 2]> {
     let forward_only = args.motion == Some(MotionMode::Forward);
-    let peers = peers(jobs)?;
-    let mut standing = Standing::read(&results.text()?, peers.as_deref(), forward_only)?;
+    let mut standing = Standing::read(&results.text()?, peers, forward_only)?;
     // Variants in the order of the flags, the plain planner first.
     let names: Vec<String> = variant::all(args).into_iter().map(|v| v.name).collect();
+    let place = |planner: &str| names.iter().position(|name| name == planner);
     standing
         .runs
-        .sort_by_key(|run| names.iter().position(|name| *name == run.planner));
+        .sort_by_key(|run| place(&run.planner).unwrap_or(names.len()));
     let report = standing.report();
     let facts = machine::facts();
     let facts: Vec<_> = facts
@@ -46,25 +46,18 @@ pub(super) fn files(
     ])
 }
 
-/// The text of all tables of peers beside the scenarios, with one heading; none without any.
-fn peers(jobs: &[Job]) -> Result<Option<String>> {
+/// The peers of all tables beside the scenarios; none without any.
+pub(super) fn peers(jobs: &[Job]) -> Result<Vec<Peer>> {
     let mut paths: BTreeSet<PathBuf> = BTreeSet::new();
     for job in jobs {
         if let Place::File { path, .. } = &job.task.place {
             paths.insert(path.with_file_name(PEERS));
         }
     }
-    let mut all: Option<String> = None;
+    let mut peers = Vec::new();
     for path in paths.iter().filter(|path| path.exists()) {
         let text = files::read_text(path)?;
-        let (heading, rows) = text
-            .split_once('\n')
-            .with_context(|| format!("{}: it has no rows", path.display()))?;
-        let all = all.get_or_insert_with(|| format!("{heading}\n"));
-        all.push_str(rows);
-        if !rows.ends_with('\n') {
-            all.push('\n');
-        }
+        peers.extend(Peer::read(&text).with_context(|| path.display().to_string())?);
     }
-    Ok(all)
+    Ok(peers)
 }
