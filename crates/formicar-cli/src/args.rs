@@ -1,6 +1,6 @@
 //! Commands and flags.
 
-use crate::commands::{BenchArgs, MapArgs, ReproduceArgs, TrackArgs};
+use crate::commands::{BenchArgs, MapArgs, ReproduceArgs, StressArgs, TrackArgs};
 use crate::values;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use formicar::geometry::{Point2, Pose2};
@@ -35,6 +35,8 @@ pub(crate) enum Command {
     Bench(Box<BenchArgs>),
     /// Repeat the experiments of a paper: tables beside its own.
     Reproduce(ReproduceArgs),
+    /// Put a planner to the test on random scenarios; exit code 1 where anything is violated.
+    Stress(StressArgs),
     /// Describe, convert and generate maps; measure the way between two places.
     Map(MapArgs),
     /// List planners, built-in vehicles and maps, or the scenarios of a file.

@@ -8,8 +8,17 @@ use std::time::{Duration, Instant};
 #[derive(Debug)]
 pub(crate) struct Clock {
     begun: Instant,
-    first_feasible: Option<Duration>,
-    n_paths: u32,
+    paths: Vec<PathTold>,
+}
+
+/// A certified path, as the observer heard of it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PathTold {
+    /// When, from the beginning of the query.
+    pub(crate) at: Duration,
+    pub(crate) length_m: f64,
+    /// Search steps by then.
+    pub(crate) n_steps: u64,
 }
 
 impl Clock {
@@ -17,8 +26,7 @@ impl Clock {
     pub(crate) fn begin() -> Self {
         Self {
             begun: Instant::now(),
-            first_feasible: None,
-            n_paths: 0,
+            paths: Vec::new(),
         }
     }
 
@@ -29,20 +37,28 @@ impl Clock {
 
     /// Seconds from the beginning to the first certified path.
     pub(crate) fn first_feasible_s(&self) -> Option<f64> {
-        self.first_feasible.map(|d| d.as_secs_f64())
+        self.paths.first().map(|told| told.at.as_secs_f64())
     }
 
     /// How often a certified path was replaced by a better one.
     pub(crate) fn n_improvements(&self) -> u32 {
-        self.n_paths.saturating_sub(1)
+        u32::try_from(self.paths.len().saturating_sub(1)).unwrap_or(u32::MAX)
+    }
+
+    /// All certified paths, the best last.
+    pub(crate) fn into_paths(self) -> Vec<PathTold> {
+        self.paths
     }
 }
 
 impl Observer for Clock {
     fn on_event(&mut self, event: &Event) {
-        if let Event::Improved { .. } = event {
-            self.n_paths += 1;
-            self.first_feasible.get_or_insert(self.begun.elapsed());
+        if let Event::Improved { length_m, n_steps } = *event {
+            self.paths.push(PathTold {
+                at: self.begun.elapsed(),
+                length_m,
+                n_steps,
+            });
         }
     }
 

@@ -12,12 +12,15 @@ pub(crate) enum Ending {
     Refused,
     /// No feasible path.
     NoPath,
+    /// Something that must not be: a fault of ours, told in the report.
+    Broken,
 }
 
 impl From<Ending> for ExitCode {
     fn from(ending: Ending) -> Self {
         Self::from(match ending {
             Ending::Done => 0,
+            Ending::Broken => 1,
             Ending::Refused => 2,
             Ending::NoPath => 3,
         })

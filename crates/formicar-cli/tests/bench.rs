@@ -40,7 +40,9 @@ impl Table {
 
     /// The rows without times and memory.
     fn repeatable(&self) -> Vec<Vec<&str>> {
-        const VARYING: [&str; 6] = [
+        const VARYING: [&str; 8] = [
+            "cold_first_s",
+            "judge_s",
             "map_setup_s",
             "first_feasible_s",
             "query_s",
@@ -55,6 +57,22 @@ impl Table {
             columns.map(|c| self.get(*row, c)).collect()
         };
         (0..self.rows.len()).map(|row| kept(&row)).collect()
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn processor_time_and_memory_are_measured_warm_and_cold() {
+    let room = Room::new();
+    for cold in [&["--cold"][..], &[]] {
+        let args = ["bench", "narrow-junction", "--limit", "1", "--out"];
+        let out = if cold.is_empty() { "warm" } else { "cold" };
+        assert_eq!(room.run(&[&args[..], &[out], cold].concat()).code, 0);
+        let table = Table::of(&room.read(&format!("{out}/results.csv")));
+        let number = |column| table.get(0, column).parse::<f64>().unwrap();
+        assert!(number("cpu_s") > 0.0 && number("peak_rss_bytes") > 1e6);
+        let is_same = table.get(0, "cold_first_s") == table.get(0, "first_feasible_s");
+        assert_eq!(is_same, !cold.is_empty());
     }
 }
 
@@ -108,6 +126,10 @@ fn tables_have_the_promised_columns_and_every_run() {
         "query_s",
         "length_m",
         "min_clearance_m",
+        "ends_clearance_m",
+        "first_length_m",
+        "cost_m",
+        "judge_s",
         "max_curvature_per_m",
         "steering_share_to_5_deg",
         "benchmr_aol",
@@ -116,10 +138,6 @@ fn tables_have_the_promised_columns_and_every_run() {
     ] {
         let value: f64 = table.get(driven, column).parse().unwrap();
         assert!(value >= 0.0, "{column}");
-    }
-    if cfg!(target_os = "linux") {
-        let number = |column| table.get(driven, column).parse::<f64>().unwrap();
-        assert!(number("cpu_s") > 0.0 && number("peak_rss_bytes") > 1e6);
     }
     let refused = keys
         .iter()
@@ -167,7 +185,7 @@ fn a_killed_bench_goes_on_where_it_stopped() {
     bench(&room, &["--motion", "forward"]).assert_refused(&["settings.json", "forward", "--out"]);
     assert_eq!(room.read("out/results.csv"), again);
     room.write("out/results.csv", again.replace(",found,", ",found\n,"));
-    bench(&room, &[]).assert_refused(&["results.csv", "no row of 46 values"]);
+    bench(&room, &[]).assert_refused(&["results.csv", "no row of 54 values"]);
 }
 
 #[test]
@@ -175,7 +193,7 @@ fn kept_answers_pass_the_judge() {
     let room = Room::new();
     let args = ["bench", "narrow-junction", "--paths", "--out", "out"];
     assert_eq!(room.run(&args).code, 0);
-    let path = "out/paths/narrow-junction-quarter-turn.hybrid-astar.0.json";
+    let path = "out/paths/narrow-junction-quarter-turn.formicar.0.json";
     let vehicle = "warehouse_amr";
     let check = [
         "check",
@@ -272,4 +290,80 @@ fn wrong_input_is_refused_before_anything_is_started() {
     room.write("taken", "");
     room.run(&["bench", "narrow", "--out", "taken"])
         .assert_refused(&["taken"]);
+}
+
+/// A scenario file with the room twice, and peers beside it.
+fn cars(room: &Room) {
+    let scenario = |id: &str| {
+        serde_json::json!({
+            "id": id, "map": "room.yaml", "resolution": 0.2,
+            "start": [2.0, 2.0, 0.0], "goal": [10.0, 2.0, 0.0],
+            "vehicle": {
+                "wheelbase": 0.65, "width": 0.62, "front_overhang": 0.125,
+                "rear_overhang": 0.125, "max_steer_deg": 40.0,
+            },
+        })
+    };
+    let file =
+        serde_json::json!({"version": 1, "scenarios": [scenario("room-0"), scenario("room-1")]});
+    room.write("cars.json", file.to_string());
+    let peers = "scenario,peer,solved,valid,first_s,length_1s_m,cusps,min_clearance_m,peak_mb\n\
+                 room-0,nav2-smac-rs,1,1,900,1000,3,0.1,99\n\
+                 room-1,nav2-smac-rs,0,0,2,,,,99\n";
+    room.write("peers.csv", peers);
+}
+
+#[test]
+fn goals_are_told_with_peers_and_without() {
+    let room = Room::new();
+    cars(&room);
+    let run = |out: &str| room.run(&["bench", "cars.json", "--seeds", "2", "--out", out]);
+    assert_eq!(run("with").code, 0);
+    let (told, page) = (room.read("with/standing.md"), room.read("with/index.html"));
+    assert!(told.contains("| solved and certified | all seeds of all 1 scenarios that any peer solves | 2 of 2 runs | yes |"), "{told}");
+    assert!(told.contains("| first path, times faster than Smac |"));
+    assert!(told.contains("| room-0 nav2-smac-rs | yes | yes | 900000.0 |"));
+    assert!(told.contains("| room-1 formicar | 2/2 | 2/2 |"));
+    assert_eq!(told.matches(" seed 1 | found |").count(), 2);
+    assert!(page.contains("room-0 nav2-smac-rs") && page.contains("Provenance"));
+    fs::remove_file(room.path("peers.csv")).unwrap();
+    assert_eq!(run("without").code, 0);
+    let told = room.read("without/standing.md");
+    assert!(told.contains("no `peers.csv` lies beside the scenarios") && !told.contains("Smac |"));
+    room.write("peers.csv", "who,what\na,b\n");
+    room.run(&["bench", "cars.json", "--out", "wrong"])
+        .assert_refused(&["peers.csv"]);
+}
+
+#[test]
+fn ablations_stand_beside_the_whole() {
+    let room = Room::new();
+    cars(&room);
+    let budget = ["--budget", "3000", "--out", "out"];
+    let run = room.run(&[&["bench", "cars.json", "--ablations"], &budget[..]].concat());
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let told = room.read("out/standing.md");
+    let (_, variants) = told.split_once("## Variants").unwrap();
+    let rows: Vec<_> = variants
+        .lines()
+        .filter(|l| l.starts_with("| formicar"))
+        .take(9)
+        .collect();
+    assert_eq!(rows.len(), 9, "{told}");
+    assert!(
+        rows[0].starts_with("| formicar | 2/2 |") && rows[0].contains("1.0000 | 1.0000 | 1.0000")
+    );
+    assert!(rows[2].starts_with("| formicar-without-hybrid-astar |"));
+    let table = Table::of(&room.read("out/results.csv"));
+    assert_eq!(table.rows.len(), 18);
+    let both = [
+        "bench",
+        "cars.json",
+        "--ablations",
+        "--planners",
+        "astar",
+        "--out",
+        "o",
+    ];
+    assert_eq!(room.run(&both).code, 2);
 }

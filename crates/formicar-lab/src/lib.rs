@@ -11,7 +11,9 @@ mod li2024;
 mod replanning;
 pub mod report;
 mod reproduction;
+pub mod standing;
 pub mod statistics;
+pub mod stress;
 mod trial;
 mod wang2019;
 

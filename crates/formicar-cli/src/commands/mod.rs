@@ -10,12 +10,14 @@ mod meta;
 mod plan;
 mod reproduce;
 mod stdin;
+mod stress;
 mod subject;
 mod track;
 
 pub(crate) use bench::BenchArgs;
 pub(crate) use map::MapArgs;
 pub(crate) use reproduce::ReproduceArgs;
+pub(crate) use stress::StressArgs;
 pub(crate) use track::TrackArgs;
 
 use crate::args::Command;
@@ -32,6 +34,7 @@ pub(crate) fn run(command: &Command, out: &mut impl Write) -> Result<Ending, Fai
         Command::Bench(args) => bench::run(args, out),
         Command::BenchRun { job } => bench::run_one(job, out),
         Command::Reproduce(args) => reproduce::run(args, out),
+        Command::Stress(args) => stress::run(args, out),
         Command::Map(args) => map::run(args, out),
         Command::List(args) => list::run(args, out),
         Command::Schema(args) => meta::schema(args, out),

@@ -3,7 +3,7 @@
 use super::stdin;
 use crate::ants::{self, AntsKind};
 use crate::args::PlanArgs;
-use crate::clock::{Clock, Watch};
+use crate::clock::{Clock, PathTold, Watch};
 use crate::failure::{Ending, Failure, note};
 use crate::ground::{self, Ground};
 use crate::output::Target;
@@ -54,6 +54,8 @@ pub(super) struct Answered {
     pub(super) answer: Answer,
     pub(super) result: Result<Outcome, PlanError>,
     pub(super) n_improvements: u32,
+    /// The certified paths that it told of, the best last.
+    pub(super) paths: Vec<PathTold>,
 }
 
 /// Carries out `plan`.
@@ -208,6 +210,7 @@ impl Session {
                 .answer(request.as_ref(), seed, &result, timing),
             result,
             n_improvements: clock.n_improvements(),
+            paths: clock.into_paths(),
         }
     }
 

@@ -41,7 +41,9 @@ impl Planner {
             Err(status) => return Ok(Err(status.into())),
         };
         let improved = self.improve(Some(request), won, (&problem, &rules), limits);
-        improved.found(self, request).map_or_else(|ended| Ok(Err(ended)), |found| Ok(Ok(found)))
+        improved
+            .found(self, request)
+            .map_or_else(|ended| Ok(Err(ended)), |found| Ok(Ok(found)))
     }
 
     /// Improves the first path, and others that hybrid A* and ants still find. The observer is
@@ -232,7 +234,9 @@ impl Best<'_> {
                 planner.tell_if_certified(request, (start, arcs), limits);
             }
         };
-        let improved = self.improver.improve((start, &arcs), seed, limits, &mut tell);
+        let improved = self
+            .improver
+            .improve((start, &arcs), seed, limits, &mut tell);
         if improved.cost_m < self.cost_m {
             self.cost_m = improved.cost_m;
             self.path = (start, improved.arcs);

@@ -1,7 +1,7 @@
 //! The race for a first path: ants that drive against hybrid A*, in turns of so many steps, so
 //! that who wins does not depend on a clock.
 
-use crate::colony::drive::{DriveColony, DriveConfig};
+use crate::colony::drive::{DriveColony, DriveConfig, Racers};
 use crate::geometry::{Arc, Pose2};
 use crate::numeric::Seed;
 use crate::progress::{Limits, Status};
@@ -67,7 +67,8 @@ pub(super) fn race<'a>(
             patience_steps: stage.patience_steps.min(n_left),
             ..stage
         };
-        let n_generations = if place < N_ANT_STAGES && rules.config.n_ants > 0 {
+        let has_ants = rules.config.n_ants > 0 && rules.config.race != Racers::HybridAstar;
+        let n_generations = if place < N_ANT_STAGES && has_ants {
             N_GENERATIONS
         } else {
             0
@@ -76,7 +77,11 @@ pub(super) fn race<'a>(
             return Ok(won);
         }
     }
-    Err(Status::NoPath)
+    match rules.config.race {
+        // Ants do not look everywhere.
+        Racers::Ants => Err(Status::BudgetExhausted),
+        Racers::Both | Racers::HybridAstar => Err(Status::NoPath),
+    }
 }
 
 /// A curve from a start to a goal that meets nothing.
@@ -115,6 +120,12 @@ fn run<'a>(
                 && let Some(path) = colony.look_for_a_way(limits)?
             {
                 return Ok(Some((path, true)));
+            }
+            if rules.config.race == Racers::Ants {
+                if generation < n_generations {
+                    continue;
+                }
+                break;
             }
             let n_steps = turn.min(n_left);
             if let Some(path) = hybrid.run(colony.guide(), n_steps, limits)? {

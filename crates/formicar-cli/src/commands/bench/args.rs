@@ -12,10 +12,11 @@ use std::path::PathBuf;
 /// Flags of `bench`.
 #[derive(Args, Debug)]
 #[command(after_help = "\
-The folder takes results.csv (one row per run), summary.md, MACHINE.md and settings.json. After a \
-kill the same command goes on where it stopped. `valid` is the word of the judge in the process of \
-the run; `check` repeats it on the answers that --paths keeps. Clearance, cusps and length at 0.1 s \
-and 1 s are those of the best path found by then, counted from the beginning of the query.")]
+The folder takes results.csv (one row per run), summary.md, standing.md and index.html (goals, \
+peers of a peers.csv beside the scenarios, every run), MACHINE.md and settings.json. After a kill the same command goes on where it stopped. `valid` is the word of the judge in the process of \
+the run; `check` repeats it on the answers that --paths keeps. Length at 0.1 s and 1 s is that of \
+the best path found by then, counted from the beginning of the query; its clearance and cusps are \
+known where it is the last.")]
 pub(crate) struct BenchArgs {
     /// Car scenarios (.json), TPCAP cases (.csv), MovingAI scenarios (.scen, for astar and dijkstra
     /// with the point vehicle, the .map beside them), names of built-in maps (all their requests),
@@ -28,9 +29,14 @@ pub(crate) struct BenchArgs {
         long,
         value_name = "A,B",
         value_delimiter = ',',
-        default_value = "hybrid-astar"
+        default_value = "formicar"
     )]
     pub(crate) planners: Vec<PlannerName>,
+
+    /// Formicar beside itself with parts left out: without ants, hybrid A* or repair in the race,
+    /// and without each operator of improvement.
+    #[arg(long, conflicts_with = "planners")]
+    pub(crate) ablations: bool,
 
     /// Runs per scenario and planner, with the seeds 0 to N - 1.
     #[arg(long, value_name = "N", default_value_t = 1,
@@ -45,6 +51,12 @@ pub(crate) struct BenchArgs {
     #[arg(long, value_name = "MODE",
           value_parser = values::word::<MotionMode>(&["forward", "reverse"]))]
     pub(crate) motion: Option<MotionMode>,
+
+    /// Measure the first query of a planner; otherwise every query is asked twice in its process,
+    /// and the second asking counts: that of a warm planner, which keeps nothing but what it knows
+    /// of map and vehicle.
+    #[arg(long)]
+    pub(crate) cold: bool,
 
     /// Keep every answer as DIR/paths/SCENARIO.PLANNER.SEED.json.
     #[arg(long)]
@@ -76,9 +88,10 @@ impl BenchArgs {
     /// What all rows of a table share: runs under other conditions do not belong in it.
     pub(crate) fn conditions(&self) -> Value {
         json!({
-            "schema": "formicar/bench/1",
+            "schema": "formicar/bench/2",
             "version": env!("CARGO_PKG_VERSION"),
             "processor": machine::processor(),
+            "cold": self.cold,
             "motion": self.motion.unwrap_or_default(),
             "budget_steps": self.budget,
             "deadline_ms": self.deadline,

@@ -85,8 +85,8 @@ mod tests {
     fn job() -> Job {
         serde_json::from_value(json!({
             "task": {"scenario": "a", "source": "b", "place": {"builtin": {"map": "m", "request": "r"}}},
-            "planner": "astar", "seed": 3, "motion": null, "budget_steps": null,
-            "deadline_ms": null, "set": [], "answer": null,
+            "planner": "astar", "name": "astar", "seed": 3, "motion": null, "budget_steps": null,
+            "deadline_ms": null, "set": [], "is_cold": false, "answer": null,
         }))
         .unwrap()
     }

@@ -2,6 +2,7 @@
 
 use super::BenchArgs;
 use super::suite::{Place, Task};
+use super::variant::Variant;
 use crate::args::GroundArgs;
 use crate::ground::Ground;
 use anyhow::{Context, Result};
@@ -20,34 +21,39 @@ pub(super) type Key = (String, String, u64);
 pub(super) struct Job {
     pub(super) task: Task,
     pub(super) planner: PlannerName,
+    /// What it goes by: the planner, or a variant of it.
+    pub(super) name: String,
     pub(super) seed: u64,
     motion: Option<MotionMode>,
     budget_steps: Option<u64>,
     deadline_ms: Option<f64>,
     pub(super) set: Vec<String>,
+    /// Whether the first asking counts.
+    pub(super) is_cold: bool,
     /// Where the answer is kept.
     pub(super) answer: Option<PathBuf>,
 }
 
 impl Job {
-    pub(super) fn new(args: &BenchArgs, task: Task, planner: PlannerName, seed: u64) -> Self {
-        let name = format!("{}.{}.{seed}.json", task.scenario, planner.name());
-        let answer = args.paths.then(|| args.out.join("paths").join(name));
+    pub(super) fn new(args: &BenchArgs, task: Task, variant: &Variant, seed: u64) -> Self {
+        let file = format!("{}.{}.{seed}.json", task.scenario, variant.name);
+        let answer = args.paths.then(|| args.out.join("paths").join(file));
         Self {
             task,
-            planner,
+            planner: variant.planner,
+            name: variant.name.clone(),
             seed,
             motion: args.motion,
             budget_steps: args.budget,
             deadline_ms: args.deadline,
-            set: args.set.clone(),
+            set: variant.set.clone(),
+            is_cold: args.cold,
             answer,
         }
     }
 
     pub(super) fn key(&self) -> Key {
-        let planner = self.planner.name().to_owned();
-        (self.task.scenario.clone(), planner, self.seed)
+        (self.task.scenario.clone(), self.name.clone(), self.seed)
     }
 
     /// What `plan` would be told of the ground.

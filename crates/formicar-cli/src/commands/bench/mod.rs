@@ -4,11 +4,14 @@ mod args;
 mod child;
 mod execute;
 mod job;
+mod measure;
 mod results;
 mod row;
+mod standing;
 mod suite;
 mod summary;
 mod usage;
+mod variant;
 
 pub(crate) use args::BenchArgs;
 pub(crate) use child::run_one;
@@ -24,10 +27,12 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::io::Write;
 use suite::Task;
+use variant::Variant;
 
 /// Carries out `bench`.
 pub(crate) fn run(args: &BenchArgs, out: &mut impl Write) -> Result<Ending, Failure> {
     let jobs = jobs(args)?;
+    let peers = standing::peers(&jobs)?;
     let (mut results, missing) = open(args, &jobs)?;
     let n_kept = jobs.len() - missing.len();
     execute::all(&missing, args.jobs, |row| results.append(row))?;
@@ -39,6 +44,9 @@ pub(crate) fn run(args: &BenchArgs, out: &mut impl Write) -> Result<Ending, Fail
             .with_context(|| format!("{} cannot be written", path.display()))
     };
     write("summary.md", table.markdown())?;
+    for (name, text) in standing::files(args, peers, &results)? {
+        write(name, text)?;
+    }
     table.write_plain(out)?;
     let kept = if n_kept > 0 {
         format!(", {n_kept} kept from before")
@@ -52,27 +60,21 @@ pub(crate) fn run(args: &BenchArgs, out: &mut impl Write) -> Result<Ending, Fail
 
 /// Every run, in order; refused as a whole where something is wrong with one.
 fn jobs(args: &BenchArgs) -> Result<Vec<Job>> {
-    let planners: Vec<_> = args
-        .planners
-        .iter()
-        .enumerate()
-        .filter(|(i, planner)| !args.planners[..*i].contains(planner))
-        .map(|(_, planner)| *planner)
-        .collect();
-    for &planner in &planners {
-        settings::load(None, &args.set, Some(planner))?;
+    let variants = variant::all(args);
+    for variant in &variants {
+        settings::load(None, &variant.set, Some(variant.planner))?;
     }
+    let planners: Vec<_> = variants.iter().map(|variant| variant.planner).collect();
     let tasks = suite::tasks(&args.scenarios, args.limit, &planners)?;
-    let of = |task: &Task, planner| {
-        let task = task.clone();
+    let of = |task: &Task, variant: &Variant| {
         let seeds = 0..args.seeds;
         seeds
-            .map(move |seed| Job::new(args, task.clone(), planner, seed))
+            .map(|seed| Job::new(args, task.clone(), variant, seed))
             .collect::<Vec<_>>()
     };
     let jobs = tasks
         .iter()
-        .flat_map(|task| planners.iter().flat_map(move |&planner| of(task, planner)));
+        .flat_map(|task| variants.iter().flat_map(move |variant| of(task, variant)));
     Ok(jobs.collect())
 }
 

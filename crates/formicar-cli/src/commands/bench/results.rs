@@ -57,6 +57,11 @@ impl Results {
         write_atomically(&self.path, &to_csv(&self.rows)?).with_context(|| name(&self.path))
     }
 
+    /// The whole table as text.
+    pub(super) fn text(&self) -> Result<String> {
+        Ok(String::from_utf8(to_csv(&self.rows)?)?)
+    }
+
     pub(super) fn rows(&self) -> &[Row] {
         &self.rows
     }

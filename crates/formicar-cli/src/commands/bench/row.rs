@@ -4,7 +4,7 @@ use super::job::{Job, Key};
 use serde_json::{Map, Value};
 
 /// The columns, in their order.
-pub(super) const COLUMNS: [&str; 46] = [
+pub(super) const COLUMNS: [&str; 54] = [
     "scenario",
     "planner",
     "seed",
@@ -24,6 +24,12 @@ pub(super) const COLUMNS: [&str; 46] = [
     "length_1s_m",
     "min_clearance_1s_m",
     "n_cusps_1s",
+    "cold_first_s",
+    "first_length_m",
+    "first_steps",
+    "cost_m",
+    "ends_clearance_m",
+    "judge_s",
     "max_curvature_per_m",
     "mean_abs_curvature_per_m",
     "total_turning_rad",
@@ -49,6 +55,8 @@ pub(super) const COLUMNS: [&str; 46] = [
     "length_cells",
     "optimal_length_cells",
     "total_s",
+    "n_cols",
+    "n_rows",
     "source",
     "reason",
 ];

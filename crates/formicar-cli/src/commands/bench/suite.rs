@@ -66,14 +66,22 @@ fn tasks_of(word: &str, limit: Option<u32>, planners: &[PlannerName]) -> Result<
     let path = Path::new(word);
     let extension = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
     match extension.as_deref().and_then(std::ffi::OsStr::to_str) {
-        Some("scen") if planners.contains(&PlannerName::HybridAstar) => bail!(
-            "{word}: hybrid-astar plans for cars, and MovingAI scenarios are for points; hint: \
-             --planners astar,dijkstra"
-        ),
-        Some("scen") => of_movingai(path, limit),
+        Some("scen") => match planners.iter().find(|planner| drives(**planner)) {
+            Some(planner) => bail!(
+                "{word}: {} plans for cars, and MovingAI scenarios are for points; hint: \
+                 --planners astar,dijkstra",
+                planner.name()
+            ),
+            None => of_movingai(path, limit),
+        },
         Some("json" | "csv") => of_file(path),
         _ => of_builtin(word),
     }
+}
+
+/// Whether a planner plans for cars alone.
+fn drives(planner: PlannerName) -> bool {
+    matches!(planner, PlannerName::Formicar | PlannerName::HybridAstar)
 }
 
 fn of_builtin(word: &str) -> Result<Vec<Task>> {

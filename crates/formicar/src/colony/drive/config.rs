@@ -8,6 +8,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DriveConfig {
+    /// Who races for a first path.
+    pub race: Racers,
     /// Ants of a generation, 0 to 10000; without any, hybrid A* searches alone.
     #[schemars(range(min = 0, max = 10_000))]
     pub n_ants: u32,
@@ -49,6 +51,19 @@ pub struct TrailsConfig {
     pub deposit: f64,
 }
 
+/// Who races for a first path; less than both shows what the other is good for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Racers {
+    /// Ants and hybrid A*, in turns.
+    #[default]
+    Both,
+    /// Ants alone: they may give up where there is a path.
+    Ants,
+    /// Hybrid A* alone.
+    HybridAstar,
+}
+
 /// How the goal field is repaired where ants die.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -64,6 +79,7 @@ pub struct FieldRepair {
 impl Default for DriveConfig {
     fn default() -> Self {
         Self {
+            race: Racers::default(),
             n_ants: 8,
             beta: 8.0,
             n_retreats: 30,
@@ -101,7 +117,12 @@ impl DriveConfig {
     /// # Errors
     /// The first parameter outside its range.
     pub fn check(&self) -> Result<(), OutOfRange> {
-        check_range("drive.n_ants", f64::from(self.n_ants), 0.0..=10_000.0)?;
+        let least_ants = match self.race {
+            Racers::Ants => 1.0,
+            Racers::Both | Racers::HybridAstar => 0.0,
+        };
+        let n_ants = f64::from(self.n_ants);
+        check_range("drive.n_ants", n_ants, least_ants..=10_000.0)?;
         check_range("drive.beta", self.beta, 0.0..=100.0)?;
         let n_retreats = f64::from(self.n_retreats);
         check_range("drive.n_retreats", n_retreats, 0.0..=10_000.0)?;

@@ -16,4 +16,4 @@ mod trails;
 mod walk;
 
 pub use colony::DriveColony;
-pub use config::{DriveConfig, FieldRepair, TrailsConfig};
+pub use config::{DriveConfig, FieldRepair, Racers, TrailsConfig};

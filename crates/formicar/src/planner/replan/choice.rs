@@ -27,7 +27,9 @@ impl Choice<'_> {
     ) -> Result<Found, Ended> {
         let (planner, told) = (self.planner, Some(self.request));
         let Some(path) = mended else {
-            return self.improved(told, anew?, limits).found(planner, self.request);
+            return self
+                .improved(told, anew?, limits)
+                .found(planner, self.request);
         };
         let mended = Won { path, stage: None };
         let old = self.improved(told, mended, limits);

@@ -1,0 +1,202 @@
+//! Runs as sections of a report.
+
+use super::numbers::{Runs, first_s, median, p90};
+use super::{Measured, Peer, Standing, goals};
+use crate::report::{Block, Field, Section, Table};
+
+/// Goals of a planner, and whether they are met.
+pub(super) fn goals(standing: &Standing, runs: &Runs) -> Section {
+    let mut goals = goals::own(runs);
+    goals.extend(standing.against_peers(runs));
+    let n_met = goals.iter().filter(|goal| goal.is_met).count();
+    let caption = format!(
+        "Goals met: {n_met} of the {} that these runs can tell.",
+        goals.len()
+    );
+    let table = goals::table(&goals).captioned(&caption);
+    Section::of_table(&format!("Goals of `{}`", runs.planner), table)
+}
+
+/// Planners, or variants of one, beside the first of them.
+pub(super) fn variants(of_planners: &[Runs]) -> Section {
+    let heading = [
+        "planner",
+        "solved",
+        "first path ms",
+        "p90",
+        "steps to it",
+        "steps",
+        "query ms",
+        "first length / first",
+        "length / first",
+        "cost / first",
+        "clearance m",
+        "cusps",
+    ];
+    let caption = "Medians over all runs, of lengths and costs those of the ratios to the first \
+                   planner's run of the same scenario and seed; cusps are means.";
+    let mut table = Table::new("variants", &heading).captioned(caption);
+    for runs in of_planners {
+        table.row(variant(runs, &of_planners[0]));
+    }
+    Section::of_table("Variants", table)
+}
+
+fn variant(runs: &Runs, first: &Runs) -> Vec<Field> {
+    let value = |of: fn(&Measured) -> Option<f64>| median(&runs.values(of));
+    let ratio = |of: fn(&Measured) -> Option<f64>| {
+        let ratio = |run: &Measured| {
+            let same = first.by_scenario.get(run.scenario.as_str())?;
+            let same = same.iter().find(|other| other.seed == run.seed)?;
+            Some(of(run)? / of(same)?)
+        };
+        median(&runs.values(ratio))
+    };
+    let first_s = runs.first_s();
+    let cusps = runs.values(|run| run.n_cusps);
+    let mean_cusps = cusps.iter().sum::<f64>() / cusps.len() as f64;
+    vec![
+        Field::words(runs.planner),
+        Field::Count(runs.n_solved(), runs.all.len()),
+        time(median(&first_s)),
+        time(p90(&first_s)),
+        Field::Number(value(|run| run.first_steps), 0),
+        Field::Number(value(|run| run.steps), 0),
+        time(value(|run| run.query_s)),
+        Field::Number(ratio(|run| run.first_length_m), 4),
+        Field::Number(ratio(|run| run.length_m), 4),
+        Field::Number(ratio(|run| run.cost_m), 4),
+        Field::Number(value(|run| run.min_clearance_m), 3),
+        Field::Number(Some(mean_cusps).filter(|mean| mean.is_finite()), 2),
+    ]
+}
+
+/// Every peer's row beside ours, a section for each file of scenarios; none without peers.
+pub(super) fn beside_peers(standing: &Standing, of_planners: &[Runs]) -> Vec<Section> {
+    let Some(first) = of_planners.first() else {
+        return Vec::new();
+    };
+    let has_peers = |source: &&str| {
+        let runs = first.only(|run| run.source == *source);
+        let mut peers = standing.peers.iter();
+        peers.any(|peer| runs.by_scenario.contains_key(peer.scenario.as_str()))
+    };
+    let sources = first.sources().into_iter().filter(has_peers);
+    sources
+        .map(|source| {
+            let heading = [
+                "who",
+                "solved",
+                "valid",
+                "first path ms",
+                "length at 0.1 s",
+                "at 1 s",
+                "cusps",
+                "clearance m",
+                "peak MB",
+            ];
+            let mut table = Table::new(&format!("peers {source}"), &heading)
+                .captioned("Ours are medians over the seeds, with the most memory of any.");
+            let scenarios = first.only(|run| run.source == source);
+            for scenario in scenarios.by_scenario.keys() {
+                for runs in of_planners {
+                    table.row(our_row(scenario, runs));
+                }
+                let peers = standing.peers.iter().filter(|p| p.scenario == *scenario);
+                for peer in peers {
+                    table.row(peer_row(peer));
+                }
+            }
+            Section::of_table(&format!("Beside peers: `{source}`"), table)
+        })
+        .collect()
+}
+
+fn our_row(scenario: &str, all: &Runs) -> Vec<Field> {
+    let runs = all.only(|run| run.scenario == scenario);
+    let value =
+        |of: fn(&Measured) -> Option<f64>| all.median_of(scenario, of).filter(|v| v.is_finite());
+    let peaks = runs.values(|run| run.peak_rss_bytes);
+    let n = runs.all.len();
+    vec![
+        Field::Words(format!("{scenario} {}", all.planner)),
+        Field::Count(
+            runs.all.iter().filter(|run| run.status == "found").count(),
+            n,
+        ),
+        Field::Count(runs.n_solved(), n),
+        time(all.median_of(scenario, |run| Some(first_s(run)))),
+        Field::Number(value(|run| run.length_by_tenth_m), 2),
+        Field::Number(value(|run| run.length_by_second_m), 2),
+        Field::Number(value(|run| run.n_cusps), 1),
+        Field::Number(value(|run| run.min_clearance_m), 3),
+        Field::Number(
+            peaks.into_iter().reduce(f64::max).map(|bytes| bytes / 1e6),
+            1,
+        ),
+    ]
+}
+
+fn peer_row(peer: &Peer) -> Vec<Field> {
+    let word = |is: Option<u8>| match is {
+        Some(0) => "no",
+        Some(_) => "yes",
+        None => "-",
+    };
+    vec![
+        Field::Words(format!("{} {}", peer.scenario, peer.peer)),
+        Field::words(word(Some(peer.solved))),
+        Field::words(word(peer.valid)),
+        time(peer.first_s),
+        Field::Number(None, 2),
+        Field::Number(peer.length_1s_m, 2),
+        Field::Number(peer.cusps, 1),
+        Field::Number(peer.min_clearance_m, 3),
+        Field::Number(peer.peak_mb, 1),
+    ]
+}
+
+/// Every run of a planner.
+pub(super) fn runs(runs: &Runs) -> Section {
+    let heading = [
+        "run",
+        "ended",
+        "first path ms",
+        "query ms",
+        "first length m",
+        "at 0.1 s",
+        "at 1 s",
+        "in the end",
+        "clearance m",
+        "cusps",
+        "steps",
+        "peak MB",
+    ];
+    let mut table = Table::new("runs", &heading);
+    for run in &runs.all {
+        table.row(vec![
+            Field::Words(format!("{} seed {}", run.scenario, run.seed)),
+            Field::words(&run.status),
+            time(run.first_feasible_s),
+            time(run.query_s),
+            Field::Number(run.first_length_m, 2),
+            Field::Number(run.length_by_tenth_m, 2),
+            Field::Number(run.length_by_second_m, 2),
+            Field::Number(run.length_m, 2),
+            Field::Number(run.min_clearance_m, 3),
+            Field::Number(run.n_cusps, 0),
+            Field::Number(run.steps, 0),
+            Field::Number(run.peak_rss_bytes.map(|bytes| bytes / 1e6), 1),
+        ]);
+    }
+    let heading = format!("Every run of `{}`", runs.planner);
+    Section {
+        heading,
+        blocks: vec![Block::Table(table)],
+    }
+}
+
+/// Seconds in milliseconds; nothing where it takes forever.
+fn time(seconds: Option<f64>) -> Field {
+    Field::Number(seconds.filter(|s| s.is_finite()).map(goals::ms), 1)
+}

@@ -1,0 +1,151 @@
+//! What came of all scenarios.
+
+use super::draw::Drawn;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// What came of one scenario.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Case {
+    /// Its seed.
+    pub seed: u64,
+    /// Ground, vehicle, and what was asked, in words.
+    pub about: String,
+    /// How it ended: a status, `refused` or `panicked`.
+    pub status: String,
+    /// Search steps.
+    pub n_steps: u64,
+    /// Hash of the path, or the reason why there is none.
+    pub told: String,
+    /// What must not be.
+    pub violations: Vec<String>,
+}
+
+impl Case {
+    pub(super) fn begin(drawn: &Drawn) -> Self {
+        let frame = drawn.map.frame();
+        let request = &drawn.request;
+        let about = format!(
+            "{}{}, {} x {} cells of {:.3} m, {}, {:?}, start {:?}, goal {:?}, {} goals, {} via points",
+            drawn.kind.name(),
+            if drawn.is_sealed { " (sealed)" } else { "" },
+            frame.n_cols(),
+            frame.n_rows(),
+            frame.resolution_m(),
+            drawn.vehicle_name,
+            request.motion,
+            request.start_heading,
+            request.goal_heading,
+            1 + request.other_goals.len(),
+            request.via.len(),
+        );
+        Self {
+            seed: drawn.seed,
+            about: about.to_lowercase(),
+            status: String::new(),
+            n_steps: 0,
+            told: String::new(),
+            violations: Vec::new(),
+        }
+    }
+
+    pub(super) fn panicked(seed: u64, text: &str) -> Self {
+        Self {
+            seed,
+            about: String::new(),
+            status: "panicked".to_owned(),
+            n_steps: 0,
+            told: text.to_owned(),
+            violations: vec![format!("panicked: {text}")],
+        }
+    }
+
+    pub(super) fn ends_as(&mut self, status: &str, n_steps: u64, told: &str) {
+        status.clone_into(&mut self.status);
+        self.n_steps = n_steps;
+        told.clone_into(&mut self.told);
+    }
+
+    pub(super) fn violates(&mut self, what: String) {
+        self.violations.push(what);
+    }
+}
+
+/// All scenarios in the order of their seeds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StressReport {
+    /// What came of each.
+    pub cases: Vec<Case>,
+}
+
+impl StressReport {
+    /// Scenarios with something that must not be.
+    pub fn violations(&self) -> impl Iterator<Item = &Case> {
+        self.cases.iter().filter(|case| !case.violations.is_empty())
+    }
+
+    /// How many there are of them.
+    pub fn n_violations(&self) -> usize {
+        self.violations().count()
+    }
+
+    /// How many scenarios ended in each way.
+    pub fn counts(&self) -> BTreeMap<&str, usize> {
+        let mut counts = BTreeMap::new();
+        for case in &self.cases {
+            *counts.entry(case.status.as_str()).or_insert(0) += 1;
+        }
+        counts
+    }
+
+    /// Search steps of all scenarios.
+    pub fn n_steps(&self) -> u64 {
+        self.cases.iter().map(|case| case.n_steps).sum()
+    }
+
+    /// A number that any difference in any outcome changes: two runs with the same one gave the
+    /// same paths and reasons.
+    pub fn digest(&self) -> u64 {
+        let mut text = String::new();
+        for case in &self.cases {
+            let Case {
+                seed,
+                status,
+                n_steps,
+                told,
+                violations,
+                ..
+            } = case;
+            // Writing to a string does not fail.
+            let _ = writeln!(text, "{seed} {status} {n_steps} {told} {violations:?}");
+        }
+        fnv_1a(text.as_bytes())
+    }
+}
+
+/// The 64-bit hash FNV-1a (Fowler, Noll & Vo).
+fn fnv_1a(bytes: &[u8]) -> u64 {
+    let step = |hash: u64, &byte: &u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, step)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hashes_like_its_published_vectors() {
+        assert_eq!(fnv_1a(b""), 0xcbf2_9ce4_8422_2325);
+        assert_eq!(fnv_1a(b"a"), 0xaf63_dc4c_8601_ec8c);
+        assert_eq!(fnv_1a(b"foobar"), 0x8594_4171_f739_67e8);
+    }
+
+    #[test]
+    fn panics_are_violations() {
+        let report = StressReport {
+            cases: vec![Case::panicked(7, "at the disco")],
+        };
+        assert_eq!(report.n_violations(), 1);
+        assert_eq!(report.counts(), BTreeMap::from([("panicked", 1)]));
+    }
+}
