@@ -119,9 +119,12 @@ fn rows(defaults: &Value, schema: &Value, before: &str) -> Vec<String> {
             let inner = &schema["$defs"][name];
             return rows(default, inner, &format!("{key}."));
         }
-        let limit = |which: &str| field[which].as_f64().unwrap();
-        let (low, high) = (limit("minimum"), limit("maximum"));
-        vec![format!("| `{before}{key}` | {default} | {low} to {high} |")]
+        let limit = |which: &str| field[which].as_f64();
+        let start = format!("| `{before}{key}` | {default} |");
+        match (limit("minimum"), limit("maximum")) {
+            (Some(low), Some(high)) => vec![format!("{start} {low} to {high} |")],
+            _ => vec![start],
+        }
     };
     fields.flat_map(row).collect()
 }

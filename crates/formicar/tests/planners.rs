@@ -138,6 +138,11 @@ fn a_budget_stops_it() {
             continue;
         }
         match limited(all_steps / 2) {
+            Outcome::Found(plan) if name == PlannerName::Formicar => {
+                assert_eq!(plan.cut_by, Some(Status::BudgetExhausted));
+                assert_eq!(plan.n_steps, all_steps / 2);
+                assert_eq!(limited(1).status(), Status::BudgetExhausted);
+            }
             Outcome::NotFound(failure) => {
                 assert_eq!(failure.status, Status::BudgetExhausted, "{name:?}");
                 assert_eq!(failure.n_steps, all_steps / 2, "{name:?}");
@@ -218,7 +223,10 @@ fn a_deadline_and_a_cancel_stop_it_and_are_named() {
             plan_with(name, &case, &case.request, &mut watch).status(),
             Status::Found
         );
-        assert_eq!(watch.n_improved, 1);
+        match name {
+            PlannerName::Formicar => assert!(watch.n_improved > 1),
+            _ => assert_eq!(watch.n_improved, 1, "{name:?}"),
+        }
         let mut planner = Planner::new(&case.map, case.vehicle.clone(), PlannerConfig::of(name))
             .expect("valid parameters");
         let no_clock = planner.plan(&hurried, Seed(1), &mut ());

@@ -212,16 +212,18 @@ mod tests {
     fn by_definition(moves: &MoveMasks, goal: Cell, tolls: &[u32]) -> Vec<Option<u32>> {
         let mut costs = vec![None; tolls.len()];
         costs[moves.index(goal)] = Some(0);
+        let offer = |costs: &[Option<u32>], cell: usize| {
+            let steps = (0..8).filter(|step| moves.as_slice()[cell] >> step & 1 == 1);
+            let ways = steps.filter_map(|step: usize| {
+                let to = cell.wrapping_add_signed(moves.offsets()[step]);
+                Some(costs[to]? + STEP_COSTS[step] + tolls[cell])
+            });
+            ways.min()
+        };
         loop {
             let before = costs.clone();
             for cell in (0..tolls.len()).filter(|&cell| cell != moves.index(goal)) {
-                for step in (0..8).filter(|step| moves.as_slice()[cell] >> step & 1 == 1) {
-                    let to = cell.wrapping_add_signed(moves.offsets()[step]);
-                    let offer = costs[to].map(|cost: u32| cost + STEP_COSTS[step] + tolls[cell]);
-                    if offer.is_some_and(|offer| costs[cell].is_none_or(|cost| offer < cost)) {
-                        costs[cell] = offer;
-                    }
-                }
+                costs[cell] = offer(&costs, cell);
             }
             if before == costs {
                 return costs;
