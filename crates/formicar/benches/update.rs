@@ -51,7 +51,13 @@ fn warm(map: &OccupancyGrid) -> (Planner, Request) {
 fn values(turn: &mut bool) -> Vec<i8> {
     *turn = !*turn;
     let odd = *turn;
-    let value = |i: usize| if i.is_multiple_of(2) == odd { OCCUPIED } else { FREE };
+    let value = |i: usize| {
+        if i.is_multiple_of(2) == odd {
+            OCCUPIED
+        } else {
+            FREE
+        }
+    };
     (0..SIDE * SIDE).map(value).collect()
 }
 
