@@ -77,11 +77,12 @@ pub(super) fn race<'a>(
             return Ok(won);
         }
     }
-    match rules.config.race {
-        // Ants do not look everywhere.
-        Racers::Ants => Err(Status::BudgetExhausted),
-        Racers::Both | Racers::HybridAstar => Err(Status::NoPath),
+    // Ants do not look everywhere.
+    let is_cut = limits.n_steps() - n_before >= problem.config().max_iterations;
+    if is_cut || rules.config.race == Racers::Ants {
+        return Err(Status::BudgetExhausted);
     }
+    Err(Status::NoPath)
 }
 
 /// A curve from a start to a goal that meets nothing.
