@@ -35,10 +35,15 @@ pub(crate) fn write(
         .map_or(String::new(), |s| format!("first path {}, ", duration(s)));
     writeln!(
         out,
-        "certified  {}, {}     {first}improved {}, done at {}",
+        "certified  {}, {}     {first}improved {}, {} at {}",
         counted(path.poses.len(), "pose"),
         counted(path.segments.len(), "segment"),
         counted(n_improvements as usize, "time"),
+        match answer.cut_by {
+            Some("timed_out") => "stopped by the deadline",
+            Some(_) => "stopped by the budget",
+            None => "done",
+        },
         duration(answer.timing.query_s),
     )
 }

@@ -427,3 +427,20 @@ fn a_rate_that_is_none_is_refused_in_words() {
     room.plan(&["--continuous-curvature"])
         .assert_refused(&["max_steer_rate_rad_per_s", "hint"]);
 }
+
+#[test]
+fn a_budget_that_cuts_the_improvement_is_named() {
+    let cut = ["--map", "warehouse", "--budget", "2000", "--json"];
+    let room = Room::new();
+    let answer = room.run(&[&["plan"], &cut[..]].concat()).json();
+    assert_eq!(answer["status"], "found");
+    assert_eq!(answer["cut_by"], "budget_exhausted");
+    let whole = room.run(&["plan", "--map", "warehouse", "--json"]).json();
+    assert!(whole.get("cut_by").is_none());
+    let words = room.run(&["plan", "--map", "warehouse", "--budget", "2000"]);
+    assert!(
+        words.stdout.contains("stopped by the budget"),
+        "{}",
+        words.stdout
+    );
+}

@@ -7,7 +7,7 @@ use crate::colony::Stop;
 use crate::metrics::PathMetrics;
 use crate::numeric::Seed;
 use crate::path::CurvePath;
-use crate::progress::IterationRecord;
+use crate::progress::{IterationRecord, Status};
 use crate::scenario::{ErrorCode, Request, ScenarioError};
 use crate::validation::Report;
 use crate::vehicle::{Motion, Vehicle, VehicleParameters};
@@ -42,6 +42,10 @@ pub struct Answer {
     pub reason: Option<String>,
     /// The same in places and measures; null where there is a path, or nothing is known.
     pub explanation: Option<Explanation>,
+    /// `budget_exhausted` or `timed_out` where that ended the improvement of the path found;
+    /// missing where it ceased to gain.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cut_by: Option<&'static str>,
     /// The planner asked.
     pub planner: &'static str,
     /// The seed it was given.
@@ -189,6 +193,7 @@ impl AnswerContext<'_> {
             Ok(Outcome::Found(plan)) => Answer {
                 certificate: Some((*plan.certificate).clone()),
                 metrics: Some(plan.metrics.clone()),
+                cut_by: plan.cut_by.map(Status::name),
                 colony: ColonyRecord::new(&plan.stages),
                 path: Some(PathDocument::new(&plan.path, self.obstacles, self.vehicle)),
                 ..self.blank("found", ErrorCode::None, document, (seed, timing))
@@ -241,6 +246,7 @@ impl AnswerContext<'_> {
             code_number: code.number(),
             reason: None,
             explanation: None,
+            cut_by: None,
             planner: self.config.planner.name(),
             seed: seed.0,
             certificate: None,
