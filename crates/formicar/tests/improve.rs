@@ -288,16 +288,20 @@ fn soft_costs_are_gone_around_where_that_pays() {
     assert_eq!(plain.arcs, case.arcs);
 }
 
-#[test]
-fn without_operators_nothing_changes_and_nothing_is_no_path() {
-    let case = random_case(Vehicle::lei2020(), MotionMode::Reverse, 3).unwrap();
-    let off = ImproveConfig {
+fn without_operators() -> ImproveConfig {
+    ImproveConfig {
         shortcut_share: 0.0,
         shift_share: 0.0,
         cusp_share: 0.0,
         polish_passes: 0,
         ..ImproveConfig::default()
-    };
+    }
+}
+
+#[test]
+fn without_operators_nothing_changes_and_nothing_is_no_path() {
+    let case = random_case(Vehicle::lei2020(), MotionMode::Reverse, 3).unwrap();
+    let off = without_operators();
     let improved = case.improve(&DriveCost::default(), &off, None);
     assert_eq!(improved.arcs, DriveMeter::merged(&case.arcs));
     let still = Case {
@@ -311,13 +315,7 @@ fn without_operators_nothing_changes_and_nothing_is_no_path() {
 #[test]
 fn each_operator_improves_alone() {
     let case = random_case(Vehicle::lei2020(), MotionMode::Reverse, 11).unwrap();
-    let off = ImproveConfig {
-        shortcut_share: 0.0,
-        shift_share: 0.0,
-        cusp_share: 0.0,
-        polish_passes: 0,
-        ..ImproveConfig::default()
-    };
+    let off = without_operators();
     let alone = [
         ImproveConfig {
             shortcut_share: 1.0,

@@ -1,5 +1,6 @@
 //! What a vehicle's body sweeps on its motion primitives, as masks of bits against the map's.
 
+use super::bit_mask::{BitMask, ROUNDING};
 use crate::geometry::{ConvexPolygon, Point2, Pose2};
 use crate::map::PaddedGrid;
 use crate::vehicle::{Primitive, PrimitiveSet, Vehicle};
@@ -10,8 +11,6 @@ const SUB_CELLS: usize = 4;
 /// Turns longer than this are swept in pieces, radians; a piece leaves the convex hull of its ends
 /// by a thousandth of the corner's radius at most.
 const PIECE_RAD: f64 = std::f64::consts::PI / 36.0;
-/// Contact within this counts, in cells.
-const ROUNDING: f64 = 1e-9;
 
 /// Masks of the cells that a body may touch on each motion primitive from each heading of a
 /// lattice, for sixteen places of the rear axle inside its cell.
@@ -33,10 +32,11 @@ pub struct DriveMasks {
 #[derive(Clone, Debug, Default)]
 struct HeadingMasks {
     masks: Vec<Mask>,
+    /// Of all masks, one after the other, so that they lie close together.
     words: Vec<u64>,
 }
 
-/// Cells around the one that the motion begins in.
+/// A [`BitMask`] whose words are a range of those of its heading.
 #[derive(Clone, Copy, Debug)]
 struct Mask {
     low: (i32, i32),
@@ -158,83 +158,15 @@ impl HeadingMasks {
     fn add(&mut self, swept: &Swept, at: Point2) {
         // What a cell must be away from: its square, grown by the places that `at` stands for.
         let reach = 0.5 / SUB_CELLS as f64 + swept.sagitta + ROUNDING;
-        let bounds = swept.hulls.iter().map(ConvexPolygon::bounds);
-        let (low, high) = bounds
-            .reduce(|(a, b), (c, d)| {
-                let low = Point2::new(a.x.min(c.x), a.y.min(c.y));
-                (low, Point2::new(b.x.max(d.x), b.y.max(d.y)))
-            })
-            .expect("a sweep has pieces");
-        let first = |v: f64| (v - reach).floor() as i32;
-        let last = |v: f64| (v + reach).floor() as i32;
-        let corner = (first(low.x + at.x), first(low.y + at.y));
-        let n_cols = (last(high.x + at.x) - corner.0 + 1) as usize;
-        let n_rows = (last(high.y + at.y) - corner.1 + 1) as usize;
-        let words_per_row = n_cols.div_ceil(64);
-        let start = self.words.len();
-        self.words.resize(start + words_per_row * n_rows, 0);
-        let shift = at - Point2::new(f64::from(corner.0), f64::from(corner.1));
-        for hull in &swept.hulls {
-            let rows = rows_touched(hull, shift, reach, n_rows);
-            for (words, (low, high)) in self.words[start..].chunks_mut(words_per_row).zip(rows) {
-                if low <= high {
-                    let cols = (low - reach).floor() as usize..=(high + reach).floor() as usize;
-                    set_bits(words, cols);
-                }
-            }
-        }
+        let mask = BitMask::of(&swept.hulls, at, reach);
+        let first = self.words.len() as u32;
+        self.words.extend(&mask.words);
         self.masks.push(Mask {
-            low: corner,
-            words_per_row: words_per_row as u32,
-            first: start as u32,
+            low: mask.low,
+            words_per_row: mask.words_per_row as u32,
+            first,
             end: self.words.len() as u32,
         });
-    }
-}
-
-/// For each row of cells, grown by `reach`, the columns between which a shifted polygon lies.
-fn rows_touched(
-    polygon: &ConvexPolygon,
-    shift: Point2,
-    reach: f64,
-    n_rows: usize,
-) -> Vec<(f64, f64)> {
-    let mut rows = vec![(f64::INFINITY, f64::NEG_INFINITY); n_rows];
-    for (a, b) in polygon.edges() {
-        let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
-        let (a, b) = (a + shift, b + shift);
-        let slope = if b.y > a.y {
-            (b.x - a.x) / (b.y - a.y)
-        } else {
-            0.0
-        };
-        let first = (a.y - reach).floor().max(0.0) as usize;
-        let last = ((b.y + reach).floor() as usize).min(n_rows - 1);
-        for (i, row) in rows.iter_mut().enumerate().take(last + 1).skip(first) {
-            let band = (i as f64 - reach, i as f64 + 1.0 + reach);
-            let at = |y: f64| a.x + slope * (y - a.y);
-            let (from, to) = (
-                if a.y < band.0 { at(band.0) } else { a.x },
-                if b.y > band.1 { at(band.1) } else { b.x },
-            );
-            *row = (row.0.min(from.min(to)), row.1.max(from.max(to)));
-        }
-    }
-    rows
-}
-
-/// Sets a range of bits in a row of words.
-fn set_bits(words: &mut [u64], cols: std::ops::RangeInclusive<usize>) {
-    let (first, last) = (*cols.start(), *cols.end());
-    for (w, word) in words
-        .iter_mut()
-        .enumerate()
-        .take(last / 64 + 1)
-        .skip(first / 64)
-    {
-        let from = first.saturating_sub(w * 64).min(63);
-        let to = (last - w * 64).min(63);
-        *word |= u64::MAX >> (63 - (to - from)) << from;
     }
 }
 

@@ -4,6 +4,7 @@
 //! closing U-shapes keeps them out of dead ends (sec. II.C). Both tell where ants may walk; what
 //! the vehicle's body may touch is decided by the true obstacles alone.
 
+mod bit_mask;
 mod closing;
 mod config;
 mod detour;

@@ -1,11 +1,9 @@
 //! The ground that a body sweeps on straight steps, as bits: one mask for each step.
 
+use super::bit_mask::{BitMask, ROUNDING};
 use crate::geometry::{ConvexPolygon, Point2, Pose2};
-use crate::map::{BitGrid, Cell};
+use crate::map::{BitGrid, Cell, shifted};
 use crate::vehicle::Vehicle;
-
-/// What counts as contact, cells: more than coordinates lose when they are turned.
-const ROUNDING: f64 = 1e-9;
 
 /// For each of some straight steps from cell center to cell center the cells that the body sweeps,
 /// heading along the step.
@@ -15,17 +13,7 @@ const ROUNDING: f64 = 1e-9;
 /// its closed square touches the swept polygon.
 #[derive(Clone, Debug)]
 pub struct SweptMasks {
-    masks: Vec<Mask>,
-}
-
-/// Swept cells around the cell in which a step begins; rows of words, lowest columns first.
-#[derive(Clone, Debug)]
-struct Mask {
-    /// The lower left cell of the mask.
-    low: (i64, i64),
-    n_cols: usize,
-    words_per_row: usize,
-    words: Vec<u64>,
+    masks: Vec<BitMask>,
 }
 
 impl SweptMasks {
@@ -39,8 +27,10 @@ impl SweptMasks {
             let corners = poses
                 .map(|pose| body.placed(pose).corners().to_vec())
                 .concat();
-            let swept = ConvexPolygon::hull(&corners).expect("a moved body has an area");
-            Mask::of(&swept, resolution_m)
+            let in_cells: Vec<_> = corners.iter().map(|&p| p * (1.0 / resolution_m)).collect();
+            let swept = ConvexPolygon::hull(&in_cells).expect("a moved body has an area");
+            // Steps begin in the middle of a cell.
+            BitMask::of(&[swept], Point2::new(0.5, 0.5), ROUNDING)
         };
         Self {
             masks: steps.iter().map(mask).collect(),
@@ -56,8 +46,8 @@ impl SweptMasks {
     pub fn swept(&self, from: Cell, step: usize) -> impl Iterator<Item = (i64, i64)> + '_ {
         let mask = &self.masks[step];
         let low = (
-            i64::from(from.col) + mask.low.0,
-            i64::from(from.row) + mask.low.1,
+            i64::from(from.col) + i64::from(mask.low.0),
+            i64::from(from.row) + i64::from(mask.low.1),
         );
         let rows = mask.words.chunks(mask.words_per_row).enumerate();
         rows.flat_map(move |(row, words)| {
@@ -67,40 +57,12 @@ impl SweptMasks {
     }
 }
 
-impl Mask {
-    /// The cells that a polygon touches, in cells around the one whose center is the origin.
-    fn of(polygon: &ConvexPolygon, resolution_m: f64) -> Self {
-        let corners = polygon.corners().iter().map(|&p| p * (1.0 / resolution_m));
-        let polygon = ConvexPolygon::new(&corners.collect::<Vec<_>>()).expect("scaled, not bent");
-        let (low, high) = polygon.bounds();
-        // A cell's square reaches half a cell from its center; closed squares touch at ties.
-        let first = |v: f64| (v - 0.5 - ROUNDING).ceil() as i64;
-        let last = |v: f64| (v + 0.5 + ROUNDING).floor() as i64;
-        let (low, high) = ((first(low.x), first(low.y)), (last(high.x), last(high.y)));
-        let (n_cols, n_rows) = ((high.0 - low.0 + 1) as usize, (high.1 - low.1 + 1) as usize);
-        let words_per_row = n_cols.div_ceil(64);
-        let mut words = vec![0; words_per_row * n_rows];
-        for row in 0..n_rows {
-            for col in 0..n_cols {
-                let center = Point2::new((low.0 + col as i64) as f64, (low.1 + row as i64) as f64);
-                if touches_square(&polygon, center) {
-                    words[row * words_per_row + col / 64] |= 1 << (col % 64);
-                }
-            }
-        }
-        Self {
-            low,
-            n_cols,
-            words_per_row,
-            words,
-        }
-    }
-
+impl BitMask {
     #[inline]
     fn is_clear(&self, obstacles: &BitGrid, from: Cell) -> bool {
         let (col, row) = (
-            i64::from(from.col) + self.low.0,
-            i64::from(from.row) + self.low.1,
+            i64::from(from.col) + i64::from(self.low.0),
+            i64::from(from.row) + i64::from(self.low.1),
         );
         let n_rows = (self.words.len() / self.words_per_row) as i64;
         let is_inside = col >= 0
@@ -122,33 +84,11 @@ impl Mask {
 /// Bits of a mask that meet obstacles, whose words begin `shift` bits before the mask.
 #[inline]
 fn hits(mask: &[u64], obstacles: &[u64], shift: usize) -> u64 {
-    let mut hit = 0;
-    for (w, &mask) in mask.iter().enumerate() {
-        let low = obstacles[w] >> shift;
-        // Shifted twice, so that a shift by a whole word is none.
-        let high = obstacles
-            .get(w + 1)
-            .map_or(0, |next| next << 1 << (63 - shift));
-        hit |= mask & (low | high);
-    }
-    hit
-}
-
-/// Whether a polygon touches the closed unit square about a center: no edge of either separates
-/// them.
-fn touches_square(polygon: &ConvexPolygon, center: Point2) -> bool {
-    let (low, high) = polygon.bounds();
-    let half = 0.5 + ROUNDING;
-    let beside = low.x > center.x + half
-        || high.x < center.x - half
-        || low.y > center.y + half
-        || high.y < center.y - half;
-    !beside
-        && polygon.edges().all(|(a, b)| {
-            // The inside lies to the left, and the square's deepest corner half a cell farther.
-            let edge = b - a;
-            edge.cross(center - a) + half * (edge.x.abs() + edge.y.abs()) >= 0.0
-        })
+    let words = mask.iter().enumerate();
+    words.fold(0, |hit, (w, &mask)| {
+        let next = obstacles.get(w + 1).copied().unwrap_or(0);
+        hit | mask & shifted(obstacles[w], next, shift)
+    })
 }
 
 #[cfg(test)]

@@ -183,6 +183,13 @@ fn next_cell(words: &[u64], col: usize, n_cols: usize, wanted: u64) -> usize {
     n_cols
 }
 
+/// 64 bits from `shift` bits into the first of two words on.
+#[inline]
+pub(crate) fn shifted(low: u64, high: u64, shift: usize) -> u64 {
+    // Shifted twice, so that a shift by a whole word is none.
+    low >> shift | high << 1 << (63 - shift)
+}
+
 /// The places of the set bits of a word, lowest first.
 pub(crate) fn set_bits(mut word: u64) -> impl Iterator<Item = u32> {
     std::iter::from_fn(move || {

@@ -22,7 +22,7 @@ mod sketch;
 mod step_cost;
 
 pub use bit_grid::BitGrid;
-pub(crate) use bit_grid::set_bits;
+pub(crate) use bit_grid::{set_bits, shifted};
 pub use cell::Cell;
 pub use components::Components;
 pub use distance::DistanceField;

@@ -2,6 +2,7 @@
 //! meets something.
 
 use super::BitGrid;
+use super::bit_grid::shifted;
 use std::ops::Range;
 
 /// A set of cells that everything off the grid belongs to, up to a reach; in 64-bit words.
@@ -76,13 +77,6 @@ impl PaddedGrid {
         };
         hit == 0
     }
-}
-
-/// 64 bits from `shift` bits into the first of two words on.
-#[inline]
-fn shifted(low: u64, high: u64, shift: usize) -> u64 {
-    // Shifted twice, so that a shift by a whole word is none.
-    low >> shift | high << 1 << (63 - shift)
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The flagship: a race for a first path, then improvement until it ceases to gain.
 
-use super::race::{Driven, Rules, Won, WonStage, race};
+use super::race::{Rules, Won, WonStage, race};
 use super::run::{Ended, Found};
 use super::{PlanError, Planner};
 use crate::colony::drive::DriveColony;
@@ -8,7 +8,7 @@ use crate::geometry::{Arc, Point2, Pose2};
 use crate::numeric::Seed;
 use crate::progress::{Event, Limits, Status};
 use crate::scenario::Request;
-use crate::search::{DriveProblem, Side, hybrid_astar};
+use crate::search::{DriveProblem, Driven, Side, hybrid_astar};
 use crate::smoothing::{ImproveConfig, ImproveProblem, Improver};
 use crate::validation::judge;
 
@@ -44,6 +44,15 @@ impl Planner {
         improved
             .found(self, request)
             .map_or_else(|ended| Ok(Err(ended)), |found| Ok(Ok(found)))
+    }
+
+    /// How this planner races for a seed.
+    pub(super) fn rules(&self, seed: Seed) -> Rules<'_> {
+        Rules {
+            config: &self.config.drive,
+            seed,
+            n_threads: self.n_threads,
+        }
     }
 
     /// Improves the first path, and others that hybrid A* and ants still find. The observer is

@@ -107,7 +107,7 @@ impl Planner {
     }
 
     /// The same planner with a preference for some ground over other, brought onto the frame of
-    /// its map. It never makes a path invalid nor a search fail; hybrid A* alone heeds it (see
+    /// its map. It never makes a path invalid nor a search fail. Not all planners heed it (see
     /// [`PlannerName::heeds_soft_costs`]).
     #[must_use]
     pub fn with_soft_costs(self, costs: &SoftCosts) -> Self {

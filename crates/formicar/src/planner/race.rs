@@ -2,10 +2,9 @@
 //! that who wins does not depend on a clock.
 
 use crate::colony::drive::{DriveColony, DriveConfig, Racers};
-use crate::geometry::{Arc, Pose2};
 use crate::numeric::Seed;
 use crate::progress::{Limits, Status};
-use crate::search::{DriveProblem, Guide, HybridSearch, Stage};
+use crate::search::{DriveProblem, Driven, Guide, HybridSearch, Stage};
 
 /// Steps of hybrid A* in the first turn; each turn is a quarter longer than the one before.
 const FIRST_TURN_STEPS: u64 = 500;
@@ -13,9 +12,6 @@ const FIRST_TURN_STEPS: u64 = 500;
 const N_ANT_STAGES: usize = 3;
 /// Generations that ants are sent in a stage.
 const N_GENERATIONS: u32 = 60;
-
-/// A start pose and the arcs from there, in grid coordinates.
-pub(super) type Driven = (Pose2, Vec<Arc>);
 
 /// How a race is run.
 pub(super) struct Rules<'a> {

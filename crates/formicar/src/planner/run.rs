@@ -80,7 +80,7 @@ impl Planner {
         }
     }
 
-    /// Runs the configured search for a request without via points; all planners but hybrid A*
+    /// Runs the configured search for a request without via points; planners that do not drive
     /// plan to its first goal alone.
     pub(super) fn search(
         &mut self,

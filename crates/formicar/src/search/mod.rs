@@ -16,7 +16,8 @@ mod wave;
 pub use astar::{AstarWorkspace, astar};
 pub use cost::{DIAGONAL_COST, STRAIGHT_COST};
 pub use drive::{
-    DriveGround, DriveProblem, GroundParts, Guide, HybridAstarConfig, Inflation, Side, State,
+    DriveGround, DriveProblem, Driven, GroundParts, Guide, HybridAstarConfig, Inflation, Side,
+    State,
 };
 pub use goal_field::GoalField;
 pub(crate) use grid_search::check_end;

@@ -20,14 +20,9 @@ pub(super) struct Way {
     pub(super) n_steps: u64,
 }
 
-/// Ants look for a shot this often near the goal, ever more seldom farther off: once in so many
-/// turning radii to go a step more.
-const RADII_PER_SHOT_STEP: f64 = 3.0;
-/// The most steps between two shots.
-const MAX_SHOT_STEPS: u64 = 32;
-/// A shot may be this many times as long as the way along the field, or
+/// A curve to the goal may be this many times as long as the way along the field,
 const SHOT_RATIO: f64 = 1.5;
-/// so many turning radii longer.
+/// and so many turning radii more.
 const SHOT_SLACK_RADII: f64 = 6.0;
 
 /// An ant with its memory of one way, used again and again.
@@ -81,7 +76,9 @@ impl<'a> Ant<'a> {
         let mut died_at = None;
         for n_steps in 1..=max_steps {
             let here = self.states[self.states.len() - 1];
-            if self.wants_shot(guide, here.pose, n_steps)
+            if self
+                .problem
+                .wants_shot(guide, here.pose.position(), n_steps)
                 && let Some(shot) = self.shot(guide, &here)
             {
                 return self.arrived(&shot, n_steps);
@@ -104,15 +101,6 @@ impl<'a> Ant<'a> {
         }
         let last = self.states[self.states.len() - 1].pose.position();
         self.dead(died_at.or(Some(last)), max_steps)
-    }
-
-    fn wants_shot(&self, guide: &Guide, pose: Pose2, n_steps: u64) -> bool {
-        let Some(to_go_m) = guide.estimate_m(&self.problem, pose.position()) else {
-            return false;
-        };
-        let radius_m = self.problem.ground().radius_m();
-        let every = (to_go_m / (RADII_PER_SHOT_STEP * radius_m)) as u64 + 1;
-        n_steps.is_multiple_of(every.min(MAX_SHOT_STEPS))
     }
 
     /// A free curve to the goal that is not much longer than the field says.

@@ -7,7 +7,7 @@ use crate::colony::crew::{Crew, with_crew};
 use crate::geometry::{Arc, Pose2};
 use crate::numeric::Seed;
 use crate::progress::{Limits, Status};
-use crate::search::{DriveProblem, Guide, State};
+use crate::search::{DriveProblem, Driven, Guide, State};
 use std::sync::Arc as Shared;
 
 /// Cells of the map that a bin of pheromone is wide.
@@ -22,9 +22,6 @@ pub struct DriveColony<'a, 'c> {
     ways: Ways,
     generation: u32,
 }
-
-/// A start pose and the arcs from there.
-type Driven = (Pose2, Vec<Arc>);
 
 impl<'a> DriveColony<'a, '_> {
     /// Runs `body` with a colony on at most so many threads, and hands the guide back.

@@ -2,11 +2,11 @@
 
 use crate::planner::Planner;
 use crate::planner::improve::Improvement;
-use crate::planner::race::{Driven, Rules, Won};
+use crate::planner::race::{Rules, Won};
 use crate::planner::run::{Ended, Found};
 use crate::progress::{Limits, Status};
 use crate::scenario::Request;
-use crate::search::DriveProblem;
+use crate::search::{DriveProblem, Driven};
 
 /// What both paths are for.
 pub(super) struct Choice<'a> {

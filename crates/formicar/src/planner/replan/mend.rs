@@ -5,7 +5,7 @@ use super::kept::{Stretch, arcs_between, kept_stretches};
 use crate::geometry::{Arc, Pose2, angle_difference};
 use crate::objective::DriveCost;
 use crate::path::CurvePath;
-use crate::search::DriveProblem;
+use crate::search::{DriveProblem, Driven};
 
 /// A vehicle this near to the path, metres and radians, is on it.
 const ON_PATH: f64 = 1e-6;
@@ -50,7 +50,7 @@ impl<'a> Mender<'a> {
     }
 
     /// The path made whole; none where a gap cannot be bridged.
-    pub(super) fn mend(&self, mut detour: Option<Detour>) -> Option<(Pose2, Vec<Arc>)> {
+    pub(super) fn mend(&self, mut detour: Option<Detour>) -> Option<Driven> {
         let mut arcs = Vec::new();
         let mut at = self.first_place();
         let mut next = 0_usize;

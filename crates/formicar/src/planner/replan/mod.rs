@@ -9,7 +9,7 @@ mod mend;
 
 pub use config::ReplanConfig;
 
-use super::race::{Driven, Rules, race};
+use super::race::race;
 use super::run::{Ended, Found};
 use super::{Outcome, PlanError, Planner, PlannerName};
 use crate::geometry::{Arc, Point2, Pose2};
@@ -18,7 +18,7 @@ use crate::objective::DriveMeter;
 use crate::path::CurvePath;
 use crate::progress::{Event, Limits, Observer, Status};
 use crate::scenario::{GoalHeading, GoalTolerance, Request, StartHeading};
-use crate::search::{DriveProblem, HybridAstarConfig};
+use crate::search::{DriveProblem, Driven, HybridAstarConfig};
 use crate::validation::judge;
 use crate::vehicle::Motion;
 use choice::Choice;
@@ -106,14 +106,6 @@ impl Planner {
             rules: &rules,
         };
         Ok(choice.take(mended, anew, limits))
-    }
-
-    pub(in crate::planner) fn rules(&self, seed: Seed) -> Rules<'_> {
-        Rules {
-            config: &self.config.drive,
-            seed,
-            n_threads: self.n_threads,
-        }
     }
 
     fn mender<'a>(

@@ -25,8 +25,8 @@ const MAX_CURVE_GOALS: usize = 4;
 const CURVE_REACH_RADII: f64 = 12.0;
 
 impl<'a> Guide<'a> {
-    /// The guide on obstacles grown by a radius; none where that covers all goals
-    /// or the start, or parts them.
+    /// The guide on obstacles grown by a radius; none where that covers all goals or
+    /// the start, or parts them.
     ///
     /// # Errors
     /// Deadline or cancel.
@@ -119,12 +119,6 @@ impl<'a> Guide<'a> {
         Ok(Some(self.interpolated_m(pose.position(), here)))
     }
 
-    /// The same without measuring: none where the field is not settled.
-    pub fn settled_m(&self, problem: &DriveProblem, pose: Pose2) -> Option<f64> {
-        let here = self.field.cost(self.cell(problem, pose.position())?)?;
-        Some(self.interpolated_m(pose.position(), here))
-    }
-
     /// The way along the field where it is settled, beyond that at least as much; none where no
     /// goal is reached.
     pub fn estimate_m(&self, problem: &DriveProblem, position: Point2) -> Option<f64> {
@@ -150,19 +144,6 @@ impl<'a> Guide<'a> {
         let moves = self.field.moves();
         let tolls = tolls(self.resolution_m, (moves.n_cols(), moves.n_rows()));
         match self.field.add_tolls(&tolls, &mut limits.aside()) {
-            Err(SearchError::Ended { status }) => Err(status),
-            _ => Ok(()),
-        }
-    }
-
-    /// Settles the field beyond the start, so that ants may stray.
-    ///
-    /// # Errors
-    /// Deadline or cancel.
-    pub fn settle_around(&mut self, to_go_m: f64, limits: &mut Limits) -> Result<(), Status> {
-        let cells = to_go_m / (OCTILE_SHRINK * self.resolution_m);
-        let cost = (cells * f64::from(STRAIGHT_COST)).min(f64::from(u32::MAX / 4)) as u32;
-        match self.field.settle(cost, &mut limits.aside()) {
             Err(SearchError::Ended { status }) => Err(status),
             _ => Ok(()),
         }

@@ -5,10 +5,14 @@ mod config;
 mod ground;
 mod ground_cells;
 mod guide;
+mod motions;
+mod price;
 mod problem;
 mod shots;
+mod state;
 
 pub use config::HybridAstarConfig;
 pub use ground::{DriveGround, GroundParts};
 pub use guide::Guide;
-pub use problem::{DriveProblem, Inflation, Side, State};
+pub use problem::DriveProblem;
+pub use state::{Driven, Inflation, Side, State};

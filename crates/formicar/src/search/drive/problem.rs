@@ -1,85 +1,32 @@
-//! One query from pose to pose: what moves are there, what they cost, which are free.
+//! One query from pose to pose: from where, to where, on which lattice.
 
 use super::ground::Lattice;
-use super::{DriveGround, Guide, HybridAstarConfig};
-use crate::collision::{Drive, MIN_CLEARANCE_M};
+use super::{DriveGround, Driven, HybridAstarConfig, Side, State};
+use crate::collision::Drive;
 use crate::geometry::{Arc, Point2, Pose2, angle_difference};
 use crate::layers::SoftCosts;
 use crate::map::Cell;
 use crate::scenario::{GoalTolerance, MotionMode, Request};
-use crate::vehicle::{Alignment, Gears, PrimitiveSet};
-
-/// By how much obstacles are grown for the goal field.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Inflation {
-    /// Halfway to what the body sweeps in its tightest turn.
-    Turning,
-    /// The body's inner disc.
-    Wide,
-    /// What the rear axle can never be nearer than.
-    Sure,
-}
-
-impl Inflation {
-    /// All of them, most growth first.
-    pub const ALL: [Self; 3] = [Self::Turning, Self::Wide, Self::Sure];
-}
-
-/// From which end a search goes out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    /// From the start.
-    Start,
-    /// From the goal, so that every motion will be driven backwards.
-    Goal,
-}
-
-/// Where a vehicle is on the lattice, and how it came.
-#[derive(Clone, Copy, Debug)]
-pub struct State {
-    /// The pose.
-    pub pose: Pose2,
-    /// The lattice's heading; only a start's heading need not be on the lattice.
-    pub heading_index: usize,
-    /// The motion that led here; of length 0 at a start.
-    pub arc: Arc,
-    /// Cost of all motions so far.
-    pub cost: f64,
-    /// Whether it is a start.
-    pub is_start: bool,
-}
-
-impl State {
-    /// Where a vehicle stands that came by an arc, whatever its heading.
-    pub fn start(pose: Pose2, arc: Arc) -> Self {
-        Self {
-            pose,
-            heading_index: 0,
-            arc,
-            cost: 0.0,
-            is_start: true,
-        }
-    }
-}
+use crate::vehicle::{Gears, PrimitiveSet};
 
 /// A request on a ground, in grid coordinates.
 #[derive(Clone)]
 pub struct DriveProblem<'a> {
-    ground: &'a DriveGround,
-    lattice: &'a Lattice,
-    config: &'a HybridAstarConfig,
+    pub(super) ground: &'a DriveGround,
+    pub(super) lattice: &'a Lattice,
+    pub(super) config: &'a HybridAstarConfig,
     motion: MotionMode,
     /// Gears of primitives.
-    gears: Gears,
+    pub(super) gears: Gears,
     tolerance: GoalTolerance,
-    side: Side,
+    pub(super) side: Side,
     starts: Vec<Pose2>,
     goals: Vec<Pose2>,
     /// Number of places among the goals.
     n_goals: usize,
-    soft_costs: Option<&'a SoftCosts>,
+    pub(super) soft_costs: Option<&'a SoftCosts>,
     /// Whether motions that the masks cannot clear are looked at exactly.
-    is_exact: bool,
+    pub(super) is_exact: bool,
 }
 
 impl<'a> DriveProblem<'a> {
@@ -160,7 +107,7 @@ impl<'a> DriveProblem<'a> {
     }
 
     /// A path found by this search, from the request's start on.
-    pub fn in_driving_order(&self, (start, mut arcs): (Pose2, Vec<Arc>)) -> (Pose2, Vec<Arc>) {
+    pub fn in_driving_order(&self, (start, mut arcs): Driven) -> Driven {
         if self.side == Side::Start {
             return (start, arcs);
         }
@@ -237,183 +184,6 @@ impl<'a> DriveProblem<'a> {
     pub fn start_states(&self) -> impl Iterator<Item = State> + '_ {
         let starts = self.starts.iter();
         starts.map(|&pose| State::start(pose, Arc::default()))
-    }
-
-    /// The states that motions lead to and that do not certainly hit anything: by a primitive
-    /// each, or from a start by the arcs onto the lattice.
-    pub fn successors(&self, from: &State, mut then: impl FnMut(usize, State)) {
-        if !from.is_start {
-            for step in 0..self.n_primitives() {
-                if let Some(state) = self.arrive(from, step) {
-                    then(step, state);
-                }
-            }
-            return;
-        }
-        let arcs = self.primitives().alignment_arcs(from.pose.heading);
-        for (step, Alignment { arc, heading_index }) in arcs.into_iter().enumerate() {
-            let position = arc.end_from(from.pose).position();
-            let is_allowed = self.gears == Gears::Both || arc.signed_length_m >= 0.0;
-            if let Some(state) = self.after(from, arc, position, heading_index)
-                && is_allowed
-            {
-                then(step, state);
-            }
-        }
-    }
-
-    /// What is to go at least from the best place one motion farther on in the same gear, with
-    /// that motion; none where every such place certainly hits something or leads nowhere.
-    pub fn look_ahead(&self, guide: &Guide, state: &State) -> Option<f64> {
-        let primitives = self.primitives();
-        let half = primitives.primitives().len() / 2;
-        let of_gear = if state.arc.signed_length_m < 0.0 {
-            half..2 * half
-        } else {
-            0..half
-        };
-        let moved = &primitives.displacements(state.heading_index)[of_gear.clone()];
-        let moves = primitives.primitives()[of_gear].iter().zip(moved);
-        let mut least = None::<f64>;
-        for (primitive, &moved) in moves {
-            let position = state.pose.position() + moved;
-            let heading_index = primitives.heading_after(state.heading_index, primitive);
-            if self.hits(position, primitives.unit(heading_index)) {
-                continue;
-            }
-            if let Some(to_go) = guide.estimate_m(self, position) {
-                let ahead = primitive.length_m + to_go;
-                least = Some(least.map_or(ahead, |least| least.min(ahead)));
-            }
-        }
-        least
-    }
-
-    /// Length of a motion, about, metres.
-    pub fn step_m(&self) -> f64 {
-        self.primitives().primitives()[0].length_m
-    }
-
-    /// Number of motions from a state on the lattice.
-    pub fn n_primitives(&self) -> usize {
-        let n_primitives = self.primitives().primitives().len();
-        match self.gears {
-            Gears::Forward => n_primitives / 2,
-            Gears::Both => n_primitives,
-        }
-    }
-
-    /// The state that a primitive leads to; none where it certainly hits something. Headings are
-    /// put exactly on the lattice, so that rounding does not add up.
-    pub fn arrive(&self, from: &State, step: usize) -> Option<State> {
-        let lattice = self.primitives();
-        let primitive = &lattice.primitives()[step];
-        let moved = lattice.displacements(from.heading_index)[step];
-        let heading_index = lattice.heading_after(from.heading_index, primitive);
-        let position = from.pose.position() + moved;
-        self.after(from, primitive.arc(), position, heading_index)
-    }
-
-    fn after(
-        &self,
-        from: &State,
-        arc: Arc,
-        position: Point2,
-        heading_index: usize,
-    ) -> Option<State> {
-        let along = self.primitives().unit(heading_index);
-        if self.hits(position, along) {
-            return None;
-        }
-        let dearness = self.dearness(position, along);
-        Some(State {
-            pose: Pose2::at(position, self.primitives().heading_rad(heading_index)),
-            heading_index,
-            arc,
-            cost: from.cost + self.cost(from.arc, arc, dearness),
-            is_start: false,
-        })
-    }
-
-    /// Whether the body's inner disc certainly hits something: a look at one cell.
-    pub(super) fn hits(&self, position: Point2, along: Point2) -> bool {
-        let (obstacles, body) = (self.ground.obstacles(), self.ground.body());
-        obstacles.ceiling_at_m(body, position, along) < 0.0
-    }
-
-    /// Whether a motion from a state is free, by its mask or exactly.
-    pub fn is_free(&self, from: &State, step: usize, arc: Arc) -> bool {
-        if from.is_start {
-            return arc.signed_length_m == 0.0 || self.is_arc_free(from.pose, arc);
-        }
-        let (padded, position) = (self.ground.padded(), from.pose.position());
-        let masks = &self.lattice.masks;
-        masks.is_clear(padded, position, from.heading_index, step)
-            || self.is_exact && self.is_arc_free(from.pose, arc)
-    }
-
-    /// Whether the body keeps off everything along an arc, exactly.
-    pub fn is_arc_free(&self, start: Pose2, arc: Arc) -> bool {
-        let drive = Drive {
-            start,
-            curvature_per_m: arc.curvature_per_m,
-            signed_length_m: arc.signed_length_m,
-        };
-        self.ground.obstacles().is_free(self.ground.body(), &drive)
-    }
-
-    /// Cost of a motion after another, given the factor of the ground at its end.
-    pub(super) fn cost(&self, before: Arc, arc: Arc, dearness: f64) -> f64 {
-        let switches = before.signed_length_m * arc.signed_length_m < 0.0;
-        let switching = if switches {
-            self.config.direction_switching_cost
-        } else {
-            0.0
-        };
-        let factor = self.gear_factor(arc) * self.steering_factor(before, arc);
-        switching + arc.length_m() * factor * dearness
-    }
-
-    /// Factor of the ground on lengths: by how near obstacles are, and by the soft costs.
-    pub(super) fn dearness(&self, position: Point2, along: Point2) -> f64 {
-        let wish_m = self.config.clearance_wish_m.max(2.0 * MIN_CLEARANCE_M);
-        let (obstacles, body) = (self.ground.obstacles(), self.ground.body());
-        let clearance_m = obstacles.estimate_at(body, position, along, wish_m);
-        let nearness = (1.0 - clearance_m / wish_m).clamp(0.0, 1.0);
-        let soft = self
-            .soft_costs
-            .map_or(0.0, |costs| costs.price_at(position));
-        (1.0 + soft) * (1.0 + self.config.cost_penalty * nearness)
-    }
-
-    fn gear_factor(&self, arc: Arc) -> f64 {
-        let sense = match self.side {
-            Side::Start => 1.0,
-            Side::Goal => -1.0,
-        };
-        if sense * arc.signed_length_m < 0.0 {
-            self.config.reverse_penalty
-        } else {
-            1.0
-        }
-    }
-
-    fn steering_factor(&self, before: Arc, arc: Arc) -> f64 {
-        if arc.curvature_per_m == 0.0 {
-            return 1.0;
-        }
-        let swings_over = before.curvature_per_m * arc.curvature_per_m < 0.0;
-        let change = if swings_over {
-            self.config.change_penalty
-        } else {
-            0.0
-        };
-        self.config.non_straight_penalty + change
-    }
-
-    /// Length of the pieces in which long arcs are priced, metres.
-    pub(super) fn piece_m(&self) -> f64 {
-        self.lattice.state_m
     }
 
     /// Whether a pose is a goal pose within the tolerance; a start must be met by a curve.

@@ -1,7 +1,7 @@
 //! Curves straight to the goal: the analytic expansion.
 
-use super::{DriveProblem, State};
-use crate::geometry::{Arc, Curve, Pose2, dubins, reeds_shepp};
+use super::{DriveProblem, Guide, State};
+use crate::geometry::{Arc, Curve, Point2, Pose2, dubins, reeds_shepp};
 use crate::scenario::MotionMode;
 
 /// How many words are tried per goal, shortest first.
@@ -9,7 +9,22 @@ const MAX_WORDS: usize = 6;
 /// Of how many goals the words are counted; of more, the nearest get most of them.
 const MAX_COUNTED_GOALS: usize = 4;
 
+/// Curves are tried always near the goal, seldom far from it: once in so many turning radii to go
+/// a state more,
+const RADII_PER_SHOT: f64 = 3.0;
+/// and at least once in so many states.
+const MOST_STATES_PER_SHOT: u64 = 32;
+
 impl DriveProblem<'_> {
+    /// Whether it is time to try a curve to the goal from a position, the n-th that is looked at.
+    pub fn wants_shot(&self, guide: &Guide, position: Point2, n: u64) -> bool {
+        let Some(to_go_m) = guide.estimate_m(self, position) else {
+            return false;
+        };
+        let every = (to_go_m / (RADII_PER_SHOT * self.ground().radius_m())) as u64 + 1;
+        n.is_multiple_of(every.min(MOST_STATES_PER_SHOT))
+    }
+
     /// The cheapest free curve from a state to a goal pose among the shortest words, with its
     /// cost.
     pub fn shot(&self, state: &State) -> Option<(Vec<Arc>, f64)> {

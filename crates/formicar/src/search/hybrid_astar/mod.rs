@@ -13,8 +13,7 @@ mod tree;
 
 pub use search::HybridSearch;
 
-use super::drive::{DriveProblem, Guide, Inflation};
-use crate::geometry::{Arc, Pose2};
+use super::drive::{DriveProblem, Driven, Guide, Inflation};
 use crate::progress::{Limits, Status};
 
 /// Searches a drivable chain of arcs from start to goal, in grid coordinates.
@@ -24,10 +23,7 @@ use crate::progress::{Limits, Status};
 ///
 /// # Errors
 /// The status to end with: no path on the lattice, budget, deadline or cancel.
-pub fn hybrid_astar(
-    problem: &DriveProblem,
-    limits: &mut Limits,
-) -> Result<(Pose2, Vec<Arc>), Status> {
+pub fn hybrid_astar(problem: &DriveProblem, limits: &mut Limits) -> Result<Driven, Status> {
     // Others may have used the same limits before.
     let n_before = limits.n_steps();
     let most_steps = problem.config().max_iterations;

@@ -3,9 +3,8 @@
 use super::open_list::{Entry, OpenList, Step};
 use super::state_costs::StateCosts;
 use super::tree::Tree;
-use crate::geometry::{Arc, Pose2};
 use crate::progress::{Limits, Status};
-use crate::search::drive::{DriveProblem, Guide, State};
+use crate::search::drive::{DriveProblem, Driven, Guide, State};
 
 /// A search that can be interrupted.
 pub struct HybridSearch<'a> {
@@ -48,7 +47,7 @@ impl<'a> HybridSearch<'a> {
         guide: &mut Guide,
         n_steps: u64,
         limits: &mut Limits,
-    ) -> Result<Option<(Pose2, Vec<Arc>)>, Status> {
+    ) -> Result<Option<Driven>, Status> {
         let mut n_left = n_steps;
         while let Some(entry) = self.open.peek() {
             match entry.step {
@@ -74,7 +73,7 @@ impl<'a> HybridSearch<'a> {
         Err(Status::NoPath)
     }
 
-    fn path(&self, node: u32, shot: Option<u32>) -> (Pose2, Vec<Arc>) {
+    fn path(&self, node: u32, shot: Option<u32>) -> Driven {
         self.problem.in_driving_order(self.tree.path(node, shot))
     }
 
@@ -134,19 +133,13 @@ impl<'a> HybridSearch<'a> {
             return Ok(());
         }
         self.states.close(key);
-        if self.wants_shot(state.pose, node, guide) {
+        if self
+            .problem
+            .wants_shot(guide, state.pose.position(), u64::from(node))
+        {
             self.open_shots(node);
         }
         self.open_moves(node, guide, limits)
-    }
-
-    /// Whether it is time to try a curve from a pose: always near the goal, seldom far from it.
-    fn wants_shot(&self, pose: Pose2, n_nodes: u32, guide: &Guide) -> bool {
-        let Some(to_go) = guide.settled_m(&self.problem, pose) else {
-            return false;
-        };
-        let every = (to_go / (3.0 * self.problem.ground().radius_m())) as u32 + 1;
-        n_nodes.is_multiple_of(every.min(32))
     }
 
     /// Puts the motions from a node on the list that may lead somewhere new, each with a hope of

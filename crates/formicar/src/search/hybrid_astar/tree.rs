@@ -1,7 +1,7 @@
 //! The search tree: how each state was reached.
 
-use crate::geometry::{Arc, Pose2};
-use crate::search::drive::State;
+use crate::geometry::Arc;
+use crate::search::drive::{Driven, State};
 
 /// No parent: a start.
 const NONE: u32 = u32::MAX;
@@ -31,7 +31,7 @@ impl Tree {
     }
 
     /// The start and the arcs to a state, and those of a shot from there.
-    pub(super) fn path(&self, id: u32, shot: Option<u32>) -> (Pose2, Vec<Arc>) {
+    pub(super) fn path(&self, id: u32, shot: Option<u32>) -> Driven {
         let mut arcs = Vec::new();
         let mut id = id;
         while self.parents[id as usize] != NONE {
