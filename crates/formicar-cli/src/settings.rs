@@ -17,7 +17,7 @@ pub(crate) struct Settings {
 }
 
 impl Settings {
-    /// The parameters for a vehicle: a point, which hybrid A* does not drive, is planned for by
+    /// The parameters for a vehicle: a point, which the default planner does not drive, is planned for by
     /// A* unless a planner was chosen.
     pub(crate) fn for_motion(self, motion: Motion) -> PlannerConfig {
         match (motion, self.of_point) {
@@ -49,7 +49,7 @@ pub(crate) fn load(
     let of_point = if table.contains_key("planner") {
         None
     } else {
-        // What is left out is that of A*, whose defaults are not those of hybrid A*.
+        // What is left out is that of A*, whose defaults are not those of the default planner.
         table.insert("planner".to_owned(), PlannerName::Astar.name().into());
         Some(typed(&table).with_context(|| name_of(file))?)
     };

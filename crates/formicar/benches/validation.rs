@@ -43,9 +43,9 @@ fn judge_hood_800x500(bencher: Bencher) {
         });
 }
 
-/// All ten queries with a warm planner.
+/// All ten queries with a warm planner of the default kind, improvement included.
 #[divan::bench(sample_count = 20, sample_size = 1)]
-fn hybrid_astar_hood_800x500(bencher: Bencher) {
+fn plan_hood_800x500(bencher: Bencher) {
     let Some((mut planner, requests)) = hood_queries() else {
         return;
     };

@@ -5,7 +5,8 @@
 
 use formicar::map::builtin::BuiltinMap;
 use formicar::numeric::Seed;
-use formicar::planner::{self, HybridAstarConfig, PlannerConfig};
+use formicar::objective::DriveCost;
+use formicar::planner::{self, PlannerConfig};
 use formicar::render::{PlanPicture, plan_picture};
 use formicar::scenario::Scenario;
 use formicar::vehicle::Vehicle;
@@ -21,13 +22,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scenario = Scenario::new(&map, vehicle, request.start, request.goal)?;
 
     // Parameters are plain values: this robot should drive straight and keep its distance.
-    let hybrid_astar = HybridAstarConfig {
-        non_straight_penalty: 1.3,
-        cost_penalty: 2.0,
-        ..HybridAstarConfig::default()
+    let cost = DriveCost {
+        bend_weight: 0.2,
+        clearance_wish_m: 0.6,
+        ..DriveCost::default()
     };
     let config = PlannerConfig {
-        hybrid_astar,
+        cost,
         ..PlannerConfig::default()
     };
     // `()` watches nothing and never cancels; the same seed gives the same path.

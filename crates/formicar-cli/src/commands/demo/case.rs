@@ -74,7 +74,7 @@ impl Case {
         let request = map.request(request)?;
         let planner = match map.vehicle {
             "point" => PlannerName::Astar,
-            _ => PlannerName::HybridAstar,
+            _ => PlannerName::default(),
         };
         Ok(Self {
             chapter,
