@@ -101,10 +101,10 @@ fn known_least_values_are_found() {
     // Per function: reach of the cube, dimensions, evaluations, and the most that the median of 11
     // runs of each variant may be off.
     let cases: [(&str, fn(&[f64]) -> f64, f64, usize, u64, [f64; 2]); 4] = [
-        ("sphere", sphere, 100.0, 10, 20_000, [1e-9, 1e-12]),
-        ("rosenbrock", rosenbrock, 10.0, 5, 20_000, [3.0, 3.0]),
-        ("rastrigin", rastrigin, 5.12, 5, 10_000, [1e-6, 1e-6]),
-        ("rastrigin", rastrigin, 5.12, 10, 20_000, [1e-1, 1e-1]),
+        ("sphere", sphere, 100.0, 10, 20_000, [1e-15, 1e-20]),
+        ("rosenbrock", rosenbrock, 10.0, 5, 20_000, [0.3, 0.05]),
+        ("rastrigin", rastrigin, 5.12, 5, 10_000, [1e-10, 1e-10]),
+        ("rastrigin", rastrigin, 5.12, 10, 20_000, [1e-10, 1e-10]),
     ];
     for (name, function, reach, n, n_evaluations, bounds) in cases {
         let space = cube(n, reach);
