@@ -215,6 +215,8 @@ fn leaves(base: &Value) -> Vec<Leaf> {
     let mut leaves = Vec::new();
     collect(&mut leaves, String::new(), base, (&schema, &schema));
     leaves.retain(|leaf| leaf.key != "planner");
+    // The order of a document's keys is that of the JSON library; that of dimensions is ours.
+    leaves.sort_by(|a, b| a.key.cmp(&b.key));
     leaves
 }
 
@@ -305,6 +307,7 @@ fn known_group(group: &str, leaves: &[Leaf]) -> Result<()> {
         .iter()
         .filter_map(|leaf| leaf.key.rsplit_once('.').map(|(group, _)| group))
         .collect();
+    groups.sort_unstable();
     groups.dedup();
     bail!(
         "the planner has no group {group:?}; there are {}",

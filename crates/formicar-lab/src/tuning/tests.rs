@@ -39,7 +39,7 @@ fn asked(map: &str, request: &str) -> Asked {
     })
 }
 
-/// Two parameters of the ants and one word, on two parking places; a third is held back.
+/// Two parameters of the ants and one word, on two narrow places; a third is held back.
 fn tuning(n_jobs: usize) -> Tuning {
     let names = ["drive.beta", "drive.n_ants", "drive.race"];
     let ranges = [range("drive.n_ants", 0.0, 20.0)];
@@ -47,7 +47,7 @@ fn tuning(n_jobs: usize) -> Tuning {
         space: space(PlannerName::Formicar, &names, &ranges).unwrap(),
         scenarios: vec![
             asked("narrow-junction", "quarter-turn"),
-            asked("perpendicular-parking", "nose-in"),
+            asked("narrow-aisle", "next-aisle"),
         ],
         held_back: vec![asked("narrow-junction", "turn-around")],
         objective: Objective {
@@ -178,7 +178,7 @@ fn ranges_are_those_of_the_schema_or_the_callers() {
     assert!(left_out.is_empty());
     let message = group("drive.trail").unwrap_err().to_string();
     assert!(
-        message.contains("no group \"drive.trail\"; there are hybrid_astar, drive"),
+        message.contains("no group \"drive.trail\"; there are cost, drive, drive.repair"),
         "{message}"
     );
 }
@@ -199,9 +199,9 @@ fn a_document_holds_what_is_tuned_and_makes_the_same_configuration() {
         .collect();
     assert_eq!(
         order,
-        ["chords.n_ants", "chords.distance.eta", "chords.deposit.by"]
+        ["chords.deposit.by", "chords.distance.eta", "chords.n_ants"]
     );
-    let values = [30.0, 2.5, 1.0];
+    let values = [1.0, 2.5, 30.0];
     let document = space.document(&values);
     let expected = serde_json::json!({
         "planner": "faco2024",
