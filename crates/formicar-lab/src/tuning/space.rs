@@ -243,9 +243,9 @@ fn collect(leaves: &mut Vec<Leaf>, key: String, value: &Value, (part, whole): (&
             continue;
         }
         let places = std::iter::once(&part).chain(&of_rule);
-        let found = places.filter_map(|place| place["properties"].get(name));
+        let mut found = places.filter_map(|place| place["properties"].get(name));
         let dot = if key.is_empty() { "" } else { "." };
-        let inner = found.last().unwrap_or(&Value::Null);
+        let inner = found.next_back().unwrap_or(&Value::Null);
         collect(leaves, format!("{key}{dot}{name}"), value, (inner, whole));
     }
 }

@@ -86,14 +86,16 @@ fn every_planner_is_its_own_values() {
     }
 }
 
+/// The values of a parameter with the ranges given.
+fn kind(planner: PlannerName, name: &str, ranges: &[OwnRange]) -> Result<Kind, String> {
+    let space = space(planner, &[name], ranges);
+    space
+        .map(|s| s.space.dimensions()[0].kind.clone())
+        .map_err(|e| e.to_string())
+}
+
 #[test]
 fn ranges_are_those_of_the_schema_or_the_callers() {
-    let kind = |planner, name: &str, ranges: &[OwnRange]| {
-        let space = space(planner, &[name], ranges);
-        space
-            .map(|s| s.space.dimensions()[0].kind.clone())
-            .map_err(|e| e.to_string())
-    };
     let formicar = PlannerName::Formicar;
     let (low, high) = (0.0, 100.0);
     assert_eq!(
@@ -121,7 +123,11 @@ fn ranges_are_those_of_the_schema_or_the_callers() {
             high: 4.0
         })
     );
+}
 
+#[test]
+fn what_cannot_be_tuned_is_refused_with_what_can() {
+    let [formicar, faco] = [PlannerName::Formicar, PlannerName::Faco2024];
     let refused = [
         (
             faco,
@@ -171,7 +177,11 @@ fn ranges_are_those_of_the_schema_or_the_callers() {
         let message = kind(planner, name, &own).unwrap_err();
         assert!(message.contains(words), "{message}");
     }
-    let base = PlannerConfig::of(formicar);
+}
+
+#[test]
+fn groups_are_sections_and_parts_of_them() {
+    let base = PlannerConfig::of(PlannerName::Formicar);
     let group = |name: &str| TuningSpace::new(&base, (&[], &keys(&[name])), &[]);
     let (trails, left_out) = group("drive.trails").unwrap();
     assert_eq!(trails.space.dimensions().len(), 3);

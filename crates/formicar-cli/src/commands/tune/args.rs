@@ -1,4 +1,5 @@
 //! Flags of `tune`.
+#![allow(clippy::doc_markdown, reason = "clap prints these words as they stand")]
 
 use crate::values;
 use clap::{Args, ValueHint};

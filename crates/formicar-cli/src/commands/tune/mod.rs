@@ -18,7 +18,7 @@ use formicar_lab::tuning::{Asked, Objective, Tuning, TuningSpace, TuningState, V
 use indicatif::ProgressBar;
 use std::fs;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Carries out `tune`.
 pub(crate) fn run(args: &TuneArgs, out: &mut impl Write) -> Result<Ending, Failure> {
@@ -121,7 +121,7 @@ fn search(tuning: &Tuning, begun: TuningState, file: &Path) -> Result<TuningStat
     while !state.colony().is_done() {
         bar.set_position(state.colony().n_evaluations());
         tuning.cycle(&mut state)?;
-        write_file(file.to_owned(), state.text()?.as_bytes())?;
+        write_file(file, state.text()?.as_bytes())?;
     }
     bar.finish_and_clear();
     Ok(state)
@@ -145,11 +145,11 @@ fn write_all(folder: &Path, verdict: &Verdict) -> Result<()> {
         ("runs.csv", verdict.runs_csv.clone()),
         ("MACHINE.md", machine::description()),
     ] {
-        write_file(folder.join(name), text.as_bytes())?;
+        write_file(&folder.join(name), text.as_bytes())?;
     }
     Ok(())
 }
 
-fn write_file(path: PathBuf, bytes: &[u8]) -> Result<()> {
-    write_atomically(&path, bytes).with_context(|| format!("{} cannot be written", path.display()))
+fn write_file(path: &Path, bytes: &[u8]) -> Result<()> {
+    write_atomically(path, bytes).with_context(|| format!("{} cannot be written", path.display()))
 }
