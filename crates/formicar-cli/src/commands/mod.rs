@@ -13,12 +13,14 @@ mod stdin;
 mod stress;
 mod subject;
 mod track;
+mod tune;
 
 pub(crate) use bench::BenchArgs;
 pub(crate) use map::MapArgs;
 pub(crate) use reproduce::ReproduceArgs;
 pub(crate) use stress::StressArgs;
 pub(crate) use track::TrackArgs;
+pub(crate) use tune::TuneArgs;
 
 use crate::args::Command;
 use crate::failure::{Ending, Failure};
@@ -35,6 +37,7 @@ pub(crate) fn run(command: &Command, out: &mut impl Write) -> Result<Ending, Fai
         Command::BenchRun { job } => bench::run_one(job, out),
         Command::Reproduce(args) => reproduce::run(args, out),
         Command::Stress(args) => stress::run(args, out),
+        Command::Tune(args) => tune::run(args, out),
         Command::Map(args) => map::run(args, out),
         Command::List(args) => list::run(args, out),
         Command::Schema(args) => meta::schema(args, out),
