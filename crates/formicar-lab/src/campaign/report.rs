@@ -3,7 +3,7 @@
 //! A section is a function here; [`report()`] lists them.
 
 use super::record::Record;
-use crate::compare::{Duel, METRICS, Metric, SUCCESS, planners, runs_of};
+use crate::compare::{Duel, METHOD, METRICS, Metric, SUCCESS, planners, runs_of};
 use crate::report::{Field, Report, Section, Table};
 use crate::statistics::quartiles;
 use anyhow::Result;
@@ -28,11 +28,17 @@ fn intro(records: &[Record]) -> String {
     let mut scenarios: Vec<[&str; 3]> = records.iter().map(place).collect();
     scenarios.sort_unstable();
     scenarios.dedup();
+    let n_planners = planners(records).len();
+    let method = if n_planners > 1 {
+        format!(" Planners beside the first: {METHOD}")
+    } else {
+        String::new()
+    };
     format!(
-        "{} runs of {} planners on {} scenarios. Solved: a path with the judge's certificate was \
-         returned. Metrics are those of solved runs, as median and quartiles.",
+        "{} runs of {n_planners} planners on {} scenarios. Solved: a path with the judge's \
+         certificate was returned. Metrics are those of solved runs, as median and quartiles.\
+         {method}",
         records.len(),
-        planners(records).len(),
         scenarios.len()
     )
 }
@@ -146,7 +152,7 @@ mod tests {
         );
         assert!(text.contains("| one | 3/3 [44, 100] % | - | - | 11.000 [10.500, 11.500] |"));
         assert!(text.contains("## `two` beside `one`"), "{text}");
-        assert!(text.contains("Lost: s seed 0."), "{text}");
+        assert!(text.contains("Solved by one alone: s seed 0."), "{text}");
         assert!(
             text.contains("| s two | 2/3 | - | - | 21.500 [21.250, 21.750] |"),
             "{text}"

@@ -23,9 +23,21 @@ const SCHEMA: &str = "formicar/store/1";
 pub struct Store {
     connection: Connection,
     path: PathBuf,
-    lock: PathBuf,
-    /// Held until the process ends, however it does.
-    _locked: File,
+    _lock: Lock,
+}
+
+/// That this process is the only writer; it ends with the process, however that ends.
+#[derive(Debug)]
+struct Lock {
+    path: PathBuf,
+    _file: File,
+}
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        // What is left of a lock file holds nobody up.
+        let _ = std::fs::remove_file(&self.path);
+    }
 }
 
 /// A store as it stands.
@@ -51,14 +63,13 @@ impl Store {
     /// A store of another campaign, one that another process writes to, and a file that is none.
     pub fn open(path: &Path, campaign: &Campaign, version: &str) -> Result<Self> {
         let name = || path.display().to_string();
-        let (lock, locked) = lock(path)?;
+        let lock = Lock::of(path)?;
         let is_new = !path.exists();
         let connection = Connection::open(path).with_context(name)?;
         let mut store = Self {
             connection,
             path: path.to_owned(),
-            lock,
-            _locked: locked,
+            _lock: lock,
         };
         // A kill between the making of the file and its first commit leaves it empty.
         if is_new || store.is_empty().with_context(name)? {
@@ -120,10 +131,7 @@ impl Store {
     /// # Errors
     /// A store that cannot be closed.
     pub fn finish(self) -> Result<()> {
-        self.connection.close().map_err(|(_, error)| error)?;
-        // What is left of a lock file holds nobody up.
-        let _ = std::fs::remove_file(self.lock);
-        Ok(())
+        Ok(self.connection.close().map_err(|(_, error)| error)?)
     }
 
     fn is_empty(&self) -> rusqlite::Result<bool> {
@@ -210,20 +218,25 @@ impl Stored {
     }
 }
 
-/// The lock of a store; refused where another process has it.
-fn lock(path: &Path) -> Result<(PathBuf, File)> {
-    let mut name = path.as_os_str().to_owned();
-    name.push(".lock");
-    let name = PathBuf::from(name);
-    let file =
-        File::create(&name).with_context(|| format!("{} cannot be written", name.display()))?;
-    match file.try_lock() {
-        Ok(()) => Ok((name, file)),
-        Err(TryLockError::WouldBlock) => bail!(
-            "{}: another process writes to it; hint: wait for it, or take another --store",
-            path.display()
-        ),
-        Err(TryLockError::Error(error)) => Err(error).context(name.display().to_string()),
+impl Lock {
+    /// The lock of a store; refused where another process has it.
+    fn of(path: &Path) -> Result<Self> {
+        let mut name = path.as_os_str().to_owned();
+        name.push(".lock");
+        let name = PathBuf::from(name);
+        let told = || format!("{} cannot be written", name.display());
+        let file = File::create(&name).with_context(told)?;
+        match file.try_lock() {
+            Ok(()) => Ok(Self {
+                path: name,
+                _file: file,
+            }),
+            Err(TryLockError::WouldBlock) => bail!(
+                "{}: another process writes to it; hint: wait for it, or take another --store",
+                path.display()
+            ),
+            Err(TryLockError::Error(error)) => Err(error).context(name.display().to_string()),
+        }
     }
 }
 

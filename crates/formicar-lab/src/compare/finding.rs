@@ -96,7 +96,8 @@ struct Values {
 impl Values {
     fn new(metric: &Metric, pairs: &[Pair]) -> Self {
         let (mut both, mut by_scenario) = (Vec::new(), BTreeMap::<_, [Vec<f64>; 2]>::new());
-        for pair in pairs {
+        let counts = |pair: &&Pair| metric.kind == Kind::Measurement || !pair.repeats;
+        for pair in pairs.iter().filter(counts) {
             let (Some(a), Some(b)) = (metric.of(pair.a), metric.of(pair.b)) else {
                 continue;
             };

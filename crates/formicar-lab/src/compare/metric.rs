@@ -43,7 +43,7 @@ pub struct Metric {
 pub const SUCCESS: &str = "success";
 
 /// The metrics in the order of the tables.
-pub const METRICS: [Metric; 9] = [
+pub const METRICS: [Metric; 10] = [
     metric((SUCCESS, "valid"), 1.0, 3, Better::Higher, Kind::Result),
     metric(
         ("first path ms", "first_feasible_s"),
@@ -83,6 +83,13 @@ pub const METRICS: [Metric; 9] = [
         Kind::Measurement,
     ),
     metric(("steps", "steps"), 1.0, 0, Better::Lower, Kind::Result),
+    metric(
+        ("steps to first path", "first_steps"),
+        1.0,
+        0,
+        Better::Lower,
+        Kind::Result,
+    ),
 ];
 
 const fn metric(

@@ -8,6 +8,7 @@ mod tables;
 
 pub use finding::{Finding, Verdict};
 pub use metric::{Better, Kind, METRICS, Metric, SUCCESS};
+pub use tables::METHOD;
 
 use crate::campaign::Record;
 use anyhow::{Result, bail};
@@ -105,7 +106,11 @@ impl Duel {
     pub fn new(a: &[&Record], b: &[&Record]) -> Result<Self> {
         let pairs = Pairs::new(a, b)?;
         let planner = |of: &[&Record]| of.first().map_or("", |r| r.get("planner")).to_owned();
-        let notes = [pairs.unlike_measurements(), pairs.unlike_limits()];
+        let notes = [
+            pairs.unlike_measurements(),
+            pairs.unlike_limits(),
+            pairs.repeats(),
+        ];
         let solved = |pair: &&Pair| [pair.a.row.is_solved(), pair.b.row.is_solved()];
         let names = |wanted: [bool; 2]| {
             let pairs = pairs.pairs.iter().filter(|pair| solved(pair) == wanted);

@@ -1,14 +1,17 @@
 //! Runs of two sides on the same scenario, vehicle, motion mode and seed.
 
+use super::metric::{Kind, METRICS};
 use crate::campaign::Record;
 use anyhow::{Result, bail};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Two runs of the same scenario with the same seed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair<'a> {
     pub(super) a: &'a Record,
     pub(super) b: &'a Record,
+    /// Whether another seed has given the same results before, where all seeds of a scenario do.
+    pub(super) repeats: bool,
 }
 
 /// The pairs of two sides, in the order of the first.
@@ -40,10 +43,12 @@ impl<'a> Pairs<'a> {
                 pairs.push(Pair {
                     a: record,
                     b: other,
+                    repeats: false,
                 });
             }
         }
         let n_alone = [a.len() - pairs.len(), of_b.len() - pairs.len()];
+        mark_repeats(&mut pairs);
         Ok(Self { pairs, n_alone })
     }
 
@@ -75,6 +80,18 @@ impl<'a> Pairs<'a> {
         None
     }
 
+    /// On how many scenarios the seed changes nothing, in words.
+    pub(super) fn repeats(&self) -> Option<String> {
+        let repeats = self.pairs.iter().filter(|pair| pair.repeats);
+        let scenarios: BTreeSet<_> = repeats.map(|pair| scenario(pair.a)).collect();
+        (!scenarios.is_empty()).then(|| {
+            format!(
+                "On {} scenarios the seed changes nothing on either side: there one seed counts,                  but for times and memory.",
+                scenarios.len()
+            )
+        })
+    }
+
     /// Other limits of the two sides, in words.
     pub(super) fn unlike_limits(&self) -> Option<String> {
         let differs = |column: &str| {
@@ -85,6 +102,29 @@ impl<'a> Pairs<'a> {
         let unlike: Vec<&str> = columns.into_iter().filter(|c| differs(c)).collect();
         let names = unlike.join(" and ");
         (!unlike.is_empty()).then(|| format!("The sides ran under other limits: {names} differ."))
+    }
+}
+
+/// Scenario, vehicle, motion.
+fn scenario(record: &Record) -> [&str; 3] {
+    ["scenario", "vehicle", "motion"].map(|column| record.get(column))
+}
+
+/// Runs that only repeat each other are no more evidence than one of them.
+fn mark_repeats(pairs: &mut [Pair]) {
+    let results = |pair: &Pair| -> Vec<[Option<f64>; 2]> {
+        let metrics = METRICS.iter().filter(|metric| metric.kind == Kind::Result);
+        metrics.map(|m| [m.of(pair.a), m.of(pair.b)]).collect()
+    };
+    let mut of_scenarios: BTreeMap<[&str; 3], Vec<usize>> = BTreeMap::new();
+    for (i, pair) in pairs.iter().enumerate() {
+        of_scenarios.entry(scenario(pair.a)).or_default().push(i);
+    }
+    for places in of_scenarios.into_values() {
+        let first = results(&pairs[places[0]]);
+        if places.iter().all(|&i| results(&pairs[i]) == first) {
+            places.iter().skip(1).for_each(|&i| pairs[i].repeats = true);
+        }
     }
 }
 

@@ -3,12 +3,14 @@
 use super::{Comparison, Duel, Finding, METRICS, SUCCESS};
 use crate::report::{Block, Field, Report, Section, Table};
 
-const CAPTION: &str = "Paired by scenario and seed. Medians over the pairs in which both sides \
-    return a certified path (of success the share over all pairs); the median of the ratios with \
-    its 95 % bootstrap interval; the probability of Wilcoxon's signed-rank test, adjusted after \
-    Holm over the table; Vargha & Delaney's A, the probability that the second side's value is \
-    above the first's. A difference is told below 0.05, of times and memory only where the median \
-    ratio is off 1 by 1 % or more.";
+/// How sides are compared, in words.
+pub const METHOD: &str = "Paired by scenario and seed. Medians over the pairs in which both sides \
+    return a certified path (of success the share over all pairs); `ratio`, the median of the \
+    ratios second over first with its 95 % bootstrap interval; `p`, the probability of Wilcoxon's \
+    signed-rank test, adjusted after Holm over the table; `A`, Vargha & Delaney's probability that \
+    the second side's value is above the first's, averaged over scenarios. A difference is told \
+    where `p` is below 0.05, of times and memory only where the median ratio is off 1 by 1 % or \
+    more.";
 
 /// The names of both sides, as columns.
 type Names<'a> = [&'a str; 2];
@@ -21,7 +23,7 @@ impl Comparison {
         Report {
             name: "compare".to_owned(),
             title: format!("{b} beside {a}"),
-            intro: format!("Verdicts are on {b}: better or worse than {a}."),
+            intro: format!("Verdicts are on {b}: better or worse than {a}. {METHOD}"),
             sections: duels.map(|duel| duel.section([a, b])).collect(),
         }
     }
@@ -39,9 +41,10 @@ impl Duel {
         let mut blocks = vec![Block::Text(self.about())];
         blocks.extend(self.notes.iter().cloned().map(Block::Text));
         blocks.push(Block::Table(self.table(names)));
-        for (what, runs) in [("Lost", &self.lost), ("Gained", &self.gained)] {
+        for (name, runs) in names.iter().zip([&self.lost, &self.gained]) {
             if !runs.is_empty() {
-                blocks.push(Block::Text(format!("{what}: {}.", runs.join(", "))));
+                let text = format!("Solved by {name} alone: {}.", runs.join(", "));
+                blocks.push(Block::Text(text));
             }
         }
         Section { heading, blocks }
@@ -64,7 +67,7 @@ impl Duel {
         for finding in &self.findings {
             table.row(row(finding));
         }
-        table.captioned(CAPTION)
+        table
     }
 }
 

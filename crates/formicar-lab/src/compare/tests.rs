@@ -108,7 +108,24 @@ fn lost_runs_are_named_and_left_out_of_paths() {
     );
     let text = crate::report::markdown(&found.report());
     assert!(text.contains("| success | 24/24 | 22/24 |"), "{text}");
-    assert!(text.contains("Lost: s0 seed 0, s0 seed 1."));
+    assert!(text.contains("Solved by a alone: s0 seed 0, s0 seed 1."));
+}
+
+#[test]
+fn seeds_that_change_nothing_count_once() {
+    let still = |i: usize| {
+        let mut values = base(i - i % 2);
+        values["query_s"] = json!(0.1 + 0.001 * i as f64);
+        values
+    };
+    let found = compare(&side("a", "p", still), &side("b", "p", still));
+    let duel = &found.duels[0];
+    let n_pairs = |metric: &str| {
+        let mut findings = duel.findings.iter();
+        findings.find(|f| f.metric == metric).unwrap().n_pairs
+    };
+    assert_eq!((n_pairs("length m"), n_pairs("query ms")), (12, 24));
+    assert!(duel.notes[0].starts_with("On 12 scenarios the seed changes nothing"));
 }
 
 #[test]
