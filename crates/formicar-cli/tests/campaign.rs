@@ -350,14 +350,28 @@ fn the_example_of_the_book_runs() {
     let (_, example) = page.split_once("```toml\n").unwrap();
     let (example, _) = example.split_once("```").unwrap();
     room.write("junctions.toml", example);
-    let run = room.run(&["bench", "junctions.toml", "--store", "j.sqlite", "--jobs", "2"]);
+    let run = room.run(&[
+        "bench",
+        "junctions.toml",
+        "--store",
+        "j.sqlite",
+        "--jobs",
+        "2",
+    ]);
     assert_eq!(run.code, 0, "{}", run.stderr);
-    assert!(run.stdout.contains("32 runs: see j.sqlite"), "{}", run.stdout);
+    assert!(
+        run.stdout.contains("32 runs: see j.sqlite"),
+        "{}",
+        run.stdout
+    );
     let run = room.run(&["report", "j.sqlite", "--out", "junctions"]);
     assert_eq!(run.code, 0, "{}", run.stderr);
     assert!(run.stdout.starts_with("# junctions\n"), "{}", run.stdout);
     // What the book says of a wrong file.
-    room.write("junctions.toml", example.replacen("\"hybrid-astar\"", "\"rrt\"", 1));
+    room.write(
+        "junctions.toml",
+        example.replacen("\"hybrid-astar\"", "\"rrt\"", 1),
+    );
     let told = page.split_once("error: junctions.toml, ").unwrap().1;
     let told = told.split_once(", hybrid-astar").unwrap().0;
     room.run(&["bench", "junctions.toml", "--store", "j.sqlite"])

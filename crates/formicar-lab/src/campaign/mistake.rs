@@ -41,7 +41,8 @@ impl Text {
             }
             let (key, _) = line.split_once('=')?;
             let key = key.trim();
-            let is_key = |c: char| c.is_alphanumeric() || "._-\"".contains(c);
+            // A string of a list may look like a key, but for its quotation mark.
+            let is_key = |c: char| c.is_alphanumeric() || "._-".contains(c);
             (!key.is_empty() && key.chars().all(is_key)).then_some(key)
         });
         key.map_or(String::new(), |key| format!(", {key}"))
@@ -56,12 +57,12 @@ mod tests {
     fn names_line_and_key() {
         let text = Text {
             name: "a.toml".to_owned(),
-            text: "x = 1\nlist = [\n  \"b\",\n]\n[[planner]]\n".to_owned(),
+            text: "x = 1\nlist = [\n  \"b=1\",\n]\n[[planner]]\n".to_owned(),
         };
         let told = |at: usize| text.mistake(Some(at..at), "no").to_string();
         assert_eq!(told(4), "a.toml, line 1, x: no");
         assert_eq!(told(17), "a.toml, line 3, list: no");
-        assert_eq!(told(26), "a.toml, line 5, [[planner]]: no");
+        assert_eq!(told(28), "a.toml, line 5, [[planner]]: no");
         assert_eq!(text.mistake(None, "no").to_string(), "a.toml: no");
     }
 }
