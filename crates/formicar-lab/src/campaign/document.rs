@@ -212,70 +212,72 @@ mod tests {
         assert!(document.vehicles.is_empty() && !document.is_cold);
     }
 
+    /// What stands at the beginning of a file, and what is said of it.
+    const MISTAKES: [(&str, &str); 17] = [
+        (
+            "sedes = 3\n",
+            "c.toml, line 1, sedes: unknown field `sedes`, expected one of `name`, `seeds`",
+        ),
+        (
+            "\nbudget_steps = 0\n",
+            "line 2, budget_steps: 0; expected a number above 0",
+        ),
+        (
+            "deadline_ms = nan\n",
+            "line 1, deadline_ms: NaN; expected a number above 0",
+        ),
+        (
+            "budget_steps = \"much\"\n",
+            "line 1, budget_steps: invalid type: string \"much\", expected u64",
+        ),
+        (
+            "cold = 1\n",
+            "line 1, cold: invalid type: integer `1`, expected a boolean",
+        ),
+        (
+            "motion = \"back\"\n",
+            "line 1, motion: expected \"reverse\" (both gears), \"forward\"",
+        ),
+        ("motion = [\"reverse\", \"reverse\"]\n", "a list of both"),
+        ("seeds = 0\n", "line 1, seeds: expected a count from 1"),
+        (
+            "[[planner]]\nplanner = \"rrt\"\n",
+            "line 2, planner: no planner is named \"rrt\"; there are formicar, hybrid-astar",
+        ),
+        (
+            "[[planner]]\nname = \"a\"\n",
+            "line 1, [[planner]]: missing field `planner`",
+        ),
+        (
+            "[[planner]]\nplanner = \"astar\"\nweight = 2\n",
+            "line 3, weight: unknown field `weight`, expected one of `name`, `planner`, `config`, `set`",
+        ),
+        (
+            "[[planner]]\nplanner = \"astar\"\n[[planner]]\nplanner = \"astar\"\n",
+            "line 4, planner: two planners are named \"astar\"",
+        ),
+        (
+            "[[planner]]\nplanner = \"astar\"\nname = \"a/b\"\n",
+            "line 3, name: expected letters",
+        ),
+        (
+            "[[scenarios]]\nids = [\"a\"]\n",
+            "line 1, [[scenarios]]: expected either builtin",
+        ),
+        (
+            "[[scenarios]]\nfile = \"a.csv\"\nresolution_m = -1\n",
+            "line 3, resolution_m: -1 m; expected a side above 0",
+        ),
+        (
+            "[[scenarios]]\nfile = \"a.json\"\nlimit = 0\n",
+            "line 3, limit: 0; expected 1 or more",
+        ),
+        ("seeds = \n", "line 1, seeds: "),
+    ];
+
     #[test]
     fn mistakes_name_file_line_key_and_what_is_allowed() {
-        let cases = [
-            (
-                "sedes = 3\n",
-                "c.toml, line 1, sedes: unknown field `sedes`, expected one of `name`, `seeds`",
-            ),
-            (
-                "\nbudget_steps = 0\n",
-                "line 2, budget_steps: 0; expected a number above 0",
-            ),
-            (
-                "deadline_ms = nan\n",
-                "line 1, deadline_ms: NaN; expected a number above 0",
-            ),
-            (
-                "budget_steps = \"much\"\n",
-                "line 1, budget_steps: invalid type: string \"much\", expected u64",
-            ),
-            (
-                "cold = 1\n",
-                "line 1, cold: invalid type: integer `1`, expected a boolean",
-            ),
-            (
-                "motion = \"back\"\n",
-                "line 1, motion: expected \"reverse\" (both gears), \"forward\"",
-            ),
-            ("motion = [\"reverse\", \"reverse\"]\n", "a list of both"),
-            ("seeds = 0\n", "line 1, seeds: expected a count from 1"),
-            (
-                "[[planner]]\nplanner = \"rrt\"\n",
-                "line 2, planner: no planner is named \"rrt\"; there are formicar, hybrid-astar",
-            ),
-            (
-                "[[planner]]\nname = \"a\"\n",
-                "line 1, [[planner]]: missing field `planner`",
-            ),
-            (
-                "[[planner]]\nplanner = \"astar\"\nweight = 2\n",
-                "line 3, weight: unknown field `weight`, expected one of `name`, `planner`, `config`, `set`",
-            ),
-            (
-                "[[planner]]\nplanner = \"astar\"\n[[planner]]\nplanner = \"astar\"\n",
-                "line 4, planner: two planners are named \"astar\"",
-            ),
-            (
-                "[[planner]]\nplanner = \"astar\"\nname = \"a/b\"\n",
-                "line 3, name: expected letters",
-            ),
-            (
-                "[[scenarios]]\nids = [\"a\"]\n",
-                "line 1, [[scenarios]]: expected either builtin",
-            ),
-            (
-                "[[scenarios]]\nfile = \"a.csv\"\nresolution_m = -1\n",
-                "line 3, resolution_m: -1 m; expected a side above 0",
-            ),
-            (
-                "[[scenarios]]\nfile = \"a.json\"\nlimit = 0\n",
-                "line 3, limit: 0; expected 1 or more",
-            ),
-            ("seeds = \n", "line 1, seeds: "),
-        ];
-        for (text, told) in cases {
+        for (text, told) in MISTAKES {
             let error = read(&format!("{text}{SCENARIOS}")).unwrap_err().to_string();
             assert!(
                 error.starts_with("c.toml, line ") && error.contains(told),
