@@ -31,7 +31,7 @@ fn base(i: usize) -> serde_json::Value {
     json!({
         "length_m": 50.0 + x, "query_s": 0.1 + 0.001 * x, "steps": 100 + i, "n_cusps": 0,
         "min_clearance_m": 0.3, "peak_rss_bytes": 30_000_000, "first_feasible_s": 0.01,
-        "cost_m": 60.0 + x,
+        "cost_m": 60.0 + x, "first_steps": 10,
     })
 }
 
@@ -41,7 +41,7 @@ fn other(i: usize) -> serde_json::Value {
     json!({
         "length_m": 55.0 + 1.1 * x, "query_s": 0.11 + 0.0011 * x, "steps": 100 + i, "n_cusps": 0,
         "min_clearance_m": 0.31, "peak_rss_bytes": 30_100_000, "first_feasible_s": 0.01,
-        "cost_m": 60.0 + x,
+        "cost_m": 60.0 + x, "first_steps": 10,
     })
 }
 
