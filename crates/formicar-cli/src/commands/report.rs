@@ -27,7 +27,12 @@ pub(crate) struct ReportArgs {
 pub(crate) fn run(args: &ReportArgs, out: &mut impl Write) -> Result<Ending, Failure> {
     let mut stores = Vec::new();
     for path in &args.stores {
-        stores.push((results::name(path), results::read(path)?));
+        let is_it = |other: &&PathBuf| results::name(other) == results::name(path);
+        let name = match args.stores.iter().filter(is_it).count() {
+            1 => results::name(path),
+            _ => path.display().to_string(),
+        };
+        stores.push((name, results::read(path)?));
     }
     tell_apart(&mut stores);
     let facts = facts(&stores);
