@@ -297,6 +297,8 @@ fn what_is_worse_is_told() {
         "--fail-on-lost",
     ]);
     assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
+    let run = compare(&["much.sqlite", "much.csv", "--results-only"]);
+    assert!(run.stdout.contains("| length m |") && !run.stdout.contains("| query ms |"));
     let run = compare(&["much.sqlite", "little.sqlite", "--json", "--out", "cmp"]);
     assert_eq!(run.code, 0);
     assert_eq!(run.json()["duels"][0]["findings"][0]["metric"], "success");

@@ -3,7 +3,7 @@
 //! A section is a function here; [`report()`] lists them.
 
 use super::record::Record;
-use crate::compare::{Duel, METHOD, METRICS, Metric, SUCCESS, planners, runs_of};
+use crate::compare::{Duel, METHOD, METRICS, Metric, SUCCESS, Scope, planners, runs_of};
 use crate::report::{Field, Report, Section, Table};
 use crate::statistics::quartiles;
 use anyhow::Result;
@@ -63,7 +63,7 @@ fn beside_the_first(records: &[Record]) -> Result<Vec<Section>> {
     };
     let of_first = runs_of(records, first);
     let sections = others.iter().map(|other| {
-        let duel = Duel::new(&of_first, &runs_of(records, other))?;
+        let duel = Duel::new(&of_first, &runs_of(records, other), Scope::All)?;
         Ok(duel.section([first, other]))
     });
     sections.collect()

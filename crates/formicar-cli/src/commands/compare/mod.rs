@@ -8,7 +8,7 @@ pub(crate) use args::CompareArgs;
 use super::{machine, results};
 use crate::failure::{Ending, Failure};
 use anyhow::Result;
-use formicar_lab::compare::{Comparison, Side};
+use formicar_lab::compare::{Comparison, Scope, Side};
 use formicar_lab::report::{Fact, latex, markdown};
 use std::io::Write;
 use std::path::Path;
@@ -21,7 +21,12 @@ pub(crate) fn run(args: &CompareArgs, out: &mut impl Write) -> Result<Ending, Fa
         // One of the two is required.
         (None, None) => return Ok(Ending::Refused),
     };
-    let comparison = Comparison::new(&sides[0], &sides[1])?;
+    let scope = if args.results_only {
+        Scope::Results
+    } else {
+        Scope::All
+    };
+    let comparison = Comparison::new(&sides[0], &sides[1], scope)?;
     if let Some(folder) = &args.out {
         write(folder, &comparison, &sides, args.with.is_some())?;
     }
