@@ -1,6 +1,8 @@
 //! Commands and flags.
 
-use crate::commands::{BenchArgs, MapArgs, ReproduceArgs, StressArgs, TrackArgs, TuneArgs};
+use crate::commands::{
+    BenchArgs, CompareArgs, MapArgs, ReportArgs, ReproduceArgs, StressArgs, TrackArgs, TuneArgs,
+};
 use crate::values;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use formicar::geometry::{Point2, Pose2};
@@ -31,8 +33,12 @@ pub(crate) enum Command {
     Check(CheckArgs),
     /// Drive a path in simulation; exit code 3 where the vehicle collides or does not arrive.
     Track(Box<TrackArgs>),
-    /// Run planners on scenarios, one process per run: a table of results and a summary.
+    /// Run planners on scenarios, or a whole campaign, one process per run: results and a summary.
     Bench(Box<BenchArgs>),
+    /// Compare two stores of results, or two builds: a verdict per metric.
+    Compare(CompareArgs),
+    /// Turn stores of results into a page with tables, CSV and LaTeX.
+    Report(ReportArgs),
     /// Repeat the experiments of a paper: tables beside its own.
     Reproduce(ReproduceArgs),
     /// Put a planner to the test on random scenarios; exit code 1 where anything is violated.

@@ -12,6 +12,8 @@ pub(crate) enum Ending {
     Refused,
     /// No feasible path.
     NoPath,
+    /// Results that are worse than those they are held against.
+    Worse,
     /// Something that must not be: a fault of ours, told in the report.
     Broken,
 }
@@ -22,7 +24,7 @@ impl From<Ending> for ExitCode {
             Ending::Done => 0,
             Ending::Broken => 1,
             Ending::Refused => 2,
-            Ending::NoPath => 3,
+            Ending::NoPath | Ending::Worse => 3,
         })
     }
 }

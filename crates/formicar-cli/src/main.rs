@@ -1,7 +1,8 @@
 //! The command line of formicar: library calls from a terminal.
 //!
 //! Exit codes: 0 a feasible path (or a command without one that succeeded), 1 an internal
-//! failure, 2 wrong usage or input, 3 finished without a feasible path.
+//! failure, 2 wrong usage or input, 3 finished without a feasible path, or with results that are
+//! worse than asked for.
 
 mod ants;
 mod args;

@@ -33,19 +33,12 @@ pub(crate) fn load(
     sets: &[String],
     planner: Option<PlannerName>,
 ) -> Result<Settings> {
-    let mut table = match file {
+    let table = match file {
         Some(path) => read(path)?,
         None => Table::new(),
     };
-    if let Some(planner) = planner {
-        table.insert("planner".to_owned(), planner.name().into());
-    }
-    let mut config = typed(&table).with_context(|| name_of(file))?;
-    for set in sets {
-        apply(&mut table, set)?;
-        config = typed(&table).with_context(|| format!("--set {set:?}"))?;
-    }
-    config.check()?;
+    let mut table = merge((table, &name_of(file)), sets, planner)?;
+    let config = typed(&table)?;
     let of_point = if table.contains_key("planner") {
         None
     } else {
@@ -56,8 +49,26 @@ pub(crate) fn load(
     Ok(Settings { config, of_point })
 }
 
+/// A table of a name, with single keys and the planner's name in it; what it comes to is checked.
+pub(crate) fn merge(
+    (mut table, name): (Table, &str),
+    sets: &[String],
+    planner: Option<PlannerName>,
+) -> Result<Table> {
+    if let Some(planner) = planner {
+        table.insert("planner".to_owned(), planner.name().into());
+    }
+    let mut config = typed(&table).with_context(|| name.to_owned())?;
+    for set in sets {
+        apply(&mut table, set)?;
+        config = typed(&table).with_context(|| format!("--set {set:?}"))?;
+    }
+    config.check()?;
+    Ok(table)
+}
+
 /// The parameters in a table, each of its own type.
-fn typed(table: &Table) -> Result<PlannerConfig> {
+pub(crate) fn typed(table: &Table) -> Result<PlannerConfig> {
     let config = table.clone().try_into();
     config.map_err(|e: toml::de::Error| anyhow!("{}", one_line(&e)))
 }
@@ -68,19 +79,25 @@ fn name_of(file: Option<&Path>) -> String {
     })
 }
 
-fn read(path: &Path) -> Result<Table> {
+/// The table of a file, whose keys are all known.
+pub(crate) fn read(path: &Path) -> Result<Table> {
     let text = super::files::read_text(path)?;
     let table: Table = text
         .parse()
         .map_err(|e| anyhow!("{}: {}", path.display(), one_line(&e)))?;
-    let known = known_keys();
-    match keys_of(&table, "")
-        .into_iter()
-        .find(|k| !is_known(k, &known))
-    {
-        Some(key) => Err(unknown_key(&key, &known)).with_context(|| path.display().to_string()),
+    match unknown(&table) {
+        Some((_, error)) => Err(error).with_context(|| path.display().to_string()),
         None => Ok(table),
     }
+}
+
+/// The first key of a table that no planner knows, and what to say of it.
+pub(crate) fn unknown(table: &Table) -> Option<(String, anyhow::Error)> {
+    let known = known_keys();
+    let mut keys = keys_of(table, "").into_iter();
+    let key = keys.find(|key| !is_known(key, &known))?;
+    let error = unknown_key(&key, &known);
+    Some((key, error))
 }
 
 /// Sets one dotted key.
@@ -148,7 +165,8 @@ fn collect_keys(part: &Json, schema: &Json, prefix: &str, keys: &mut BTreeSet<St
     }
 }
 
-fn keys_of(table: &Table, prefix: &str) -> Vec<String> {
+/// The keys of a table, dotted.
+pub(crate) fn keys_of(table: &Table, prefix: &str) -> Vec<String> {
     let keys = table.iter().flat_map(|(key, value)| {
         let dotted = format!("{prefix}{key}");
         match value {

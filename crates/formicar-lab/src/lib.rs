@@ -5,6 +5,8 @@
 //! holds all rows and a [`report::Report`] of tables and figures, which is written as a page, as
 //! Markdown and as LaTeX.
 
+pub mod campaign;
+pub mod compare;
 mod experiment;
 mod lei2020;
 mod li2024;

@@ -32,6 +32,14 @@ pub(crate) fn facts() -> Vec<(&'static str, String)> {
     known.filter(|(_, fact)| !fact.is_empty()).collect()
 }
 
+/// The machine in a line, which tells machines apart as far as times go.
+pub(crate) fn name() -> String {
+    let memory = memory(&fs::read_to_string("/proc/meminfo").unwrap_or_default());
+    let cores = available_parallelism().ok().map(|n| format!("{n} cores"));
+    let parts = [processor(), cores, memory];
+    parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+}
+
 /// The processor's name.
 pub(crate) fn processor() -> Option<String> {
     let cpuinfo = fs::read_to_string("/proc/cpuinfo").ok()?;
@@ -65,6 +73,15 @@ fn system(os_release: &str) -> String {
     ];
     let parts: Vec<_> = parts.into_iter().filter(|part| !part.is_empty()).collect();
     parts.join(", ")
+}
+
+/// How the program was built.
+pub(crate) fn profile() -> &'static str {
+    if cfg!(debug_assertions) {
+        "debug"
+    } else {
+        "release"
+    }
 }
 
 fn build() -> &'static str {

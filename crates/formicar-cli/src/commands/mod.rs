@@ -2,13 +2,16 @@
 
 mod bench;
 mod check;
+mod compare;
 mod demo;
 mod list;
 mod machine;
 mod map;
 mod meta;
 mod plan;
+mod report;
 mod reproduce;
+mod results;
 mod stdin;
 mod stress;
 mod subject;
@@ -16,7 +19,9 @@ mod track;
 mod tune;
 
 pub(crate) use bench::BenchArgs;
+pub(crate) use compare::CompareArgs;
 pub(crate) use map::MapArgs;
+pub(crate) use report::ReportArgs;
 pub(crate) use reproduce::ReproduceArgs;
 pub(crate) use stress::StressArgs;
 pub(crate) use track::TrackArgs;
@@ -35,6 +40,8 @@ pub(crate) fn run(command: &Command, out: &mut impl Write) -> Result<Ending, Fai
         Command::Track(args) => track::run(args, out),
         Command::Bench(args) => bench::run(args, out),
         Command::BenchRun { job } => bench::run_one(job, out),
+        Command::Compare(args) => compare::run(args, out),
+        Command::Report(args) => report::run(args, out),
         Command::Reproduce(args) => reproduce::run(args, out),
         Command::Stress(args) => stress::run(args, out),
         Command::Tune(args) => tune::run(args, out),

@@ -3,11 +3,13 @@
 
 use crate::commands::machine;
 use crate::values;
+use anyhow::{Result, bail};
 use clap::{Args, ValueHint};
 use formicar::planner::PlannerName;
 use formicar::scenario::MotionMode;
+use formicar_lab::campaign::Limits;
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Flags of `bench`.
 #[derive(Args, Debug)]
@@ -20,32 +22,33 @@ known where it is the last.")]
 pub(crate) struct BenchArgs {
     /// Car scenarios (.json), TPCAP cases (.csv), MovingAI scenarios (.scen, for astar and dijkstra
     /// with the point vehicle, the .map beside them), names of built-in maps (all their requests),
-    /// `narrow` (the narrow set) or `builtin` (all built-in maps).
+    /// `narrow` (the narrow set) or `builtin` (all built-in maps); or one campaign file (.toml).
     #[arg(required = true, value_hint = ValueHint::FilePath)]
     pub(crate) scenarios: Vec<String>,
 
-    /// Planners, separated by commas (see `list planners`).
-    #[arg(
-        long,
-        value_name = "A,B",
-        value_delimiter = ',',
-        default_value = "formicar"
-    )]
-    pub(crate) planners: Vec<PlannerName>,
+    /// Planners, separated by commas (see `list planners`); `formicar` by default.
+    #[arg(long, value_name = "A,B", value_delimiter = ',')]
+    planners: Vec<PlannerName>,
 
     /// Formicar beside itself with parts left out: without ants, hybrid A* or repair in the race,
     /// and without each operator of improvement.
     #[arg(long, conflicts_with = "planners")]
     pub(crate) ablations: bool,
 
-    /// Runs per scenario and planner, with the seeds 0 to N - 1.
-    #[arg(long, value_name = "N", default_value_t = 1,
-          value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
-    pub(crate) seeds: u64,
+    /// Runs per scenario and planner, with the seeds 0 to N - 1; 1 by default.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    seeds: Option<u64>,
 
     /// Folder for the results; made if need be.
-    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
-    pub(crate) out: PathBuf,
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath,
+          required_unless_present = "store")]
+    pub(crate) out: Option<PathBuf>,
+
+    /// SQLite file for the results, with history and path of every run; a .csv of the same name
+    /// takes the rows in the end.
+    #[arg(long, value_name = "F.sqlite", value_hint = ValueHint::FilePath,
+          conflicts_with_all = ["out", "paths"])]
+    pub(crate) store: Option<PathBuf>,
 
     /// Which gears may be used; `reverse` allows both and penalizes reverse.
     #[arg(long, value_name = "MODE",
@@ -85,6 +88,57 @@ pub(crate) struct BenchArgs {
 }
 
 impl BenchArgs {
+    /// The planners, the default one where none is named.
+    pub(crate) fn planners(&self) -> Vec<PlannerName> {
+        if self.planners.is_empty() {
+            vec![PlannerName::default()]
+        } else {
+            self.planners.clone()
+        }
+    }
+
+    /// How many seeds.
+    pub(crate) fn n_seeds(&self) -> u64 {
+        self.seeds.unwrap_or(1)
+    }
+
+    /// The campaign file, where that is what is named; what it says itself no flag may say.
+    pub(crate) fn campaign_file(&self) -> Result<Option<&Path>> {
+        let is_toml = |word: &&String| word.to_ascii_lowercase().ends_with(".toml");
+        let Some(file) = self.scenarios.iter().find(is_toml) else {
+            return Ok(None);
+        };
+        let said = [
+            ("other scenarios", self.scenarios.len() > 1),
+            ("--planners", !self.planners.is_empty()),
+            ("--ablations", self.ablations),
+            ("--seeds", self.seeds.is_some()),
+            ("--motion", self.motion.is_some()),
+            ("--cold", self.cold),
+            ("--limit", self.limit.is_some()),
+            ("--budget", self.budget.is_some()),
+            ("--deadline", self.deadline.is_some()),
+            ("--set", !self.set.is_empty()),
+        ];
+        if let Some((flag, _)) = said.iter().find(|(_, is_said)| *is_said) {
+            bail!("{flag}: the campaign file {file} says that itself; hint: write it there");
+        }
+        if self.store.is_none() {
+            bail!("--out: a campaign goes into a store; hint: --store F.sqlite");
+        }
+        Ok(Some(Path::new(file)))
+    }
+
+    /// The limits of all runs.
+    pub(crate) fn limits(&self) -> Limits {
+        Limits {
+            motion: self.motion,
+            budget_steps: self.budget,
+            deadline_ms: self.deadline,
+            is_cold: self.cold,
+        }
+    }
+
     /// What all rows of a table share: runs under other conditions do not belong in it.
     pub(crate) fn conditions(&self) -> Value {
         json!({

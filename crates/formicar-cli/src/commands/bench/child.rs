@@ -1,10 +1,6 @@
 //! The process of one run: plans, measures itself, and prints its row.
 
-use super::job::Job;
-use super::measure;
-use super::row::{KNOWN_BY, Row};
-use super::suite::Place;
-use super::usage;
+use super::{measure, place, usage};
 use crate::commands::plan::{Answered, Session};
 use crate::failure::{Ending, Failure};
 use crate::{ground, settings};
@@ -13,36 +9,25 @@ use formicar::map::format::write_atomically;
 use formicar::metrics::CompatibleMetrics;
 use formicar::numeric::Seed;
 use formicar::path::{CurvePath, GridPath};
-use formicar::planner::{Outcome, Plan, RequestDocument};
+use formicar::planner::{Outcome, PathDocument, Plan, RequestDocument};
+use formicar_lab::campaign::{History, Improvement, Job, KNOWN_BY, Place, Row, Told};
 use serde_json::{Map, Value, json};
 use std::f64::consts::SQRT_2;
 use std::io::Write;
 use std::time::Instant;
 
-/// Carries out one run; its row goes to stdout as a JSON object.
+/// Carries out one run; its row, history and path go to stdout as a JSON object.
 pub(crate) fn run_one(job: &str, out: &mut impl Write) -> Result<Ending, Failure> {
     let begun = Instant::now();
+    usage::end_with_parent();
     let job: Job = serde_json::from_str(job).context("the run")?;
-    let settings = settings::load(None, &job.set, Some(job.planner))?;
-    let ground = ground::load(&job.ground())?;
-    let config = settings.for_motion(ground.vehicle.vehicle.motion());
-    let request = job.request(&ground)?;
+    let contender = &job.contender;
+    let config = (contender.config.clone(), contender.name.as_str());
+    let config = settings::typed(&settings::merge(config, &[], Some(contender.planner))?)?;
+    let ground = ground::load(&place::ground_args(&job.task, job.vehicle_source()))?;
+    let request = place::request(&job, &ground)?;
     let mut session = Session::new(ground, config, begun)?;
-    let mut ask = || session.ask(&request, &RequestDocument::default(), Seed(job.seed));
-    let (used_before_s, cold) = (usage::cpu_s(), ask());
-    let (used_cold_s, warm) = (usage::cpu_s(), (!job.is_cold).then(ask));
-    // Before anything else uses up more. What the first asking took is not counted twice.
-    let warmed_up_s = warm.is_some().then(|| Some(used_cold_s? - used_before_s?));
-    let cpu_s = usage::cpu_s().map(|all_s| all_s - warmed_up_s.flatten().unwrap_or(0.0));
-    let used = json!({
-        "cpu_s": cpu_s,
-        "peak_rss_bytes": usage::peak_rss_bytes(),
-        "cold_first_s": cold.answer.timing.first_feasible_s,
-    });
-    let is_same = warm
-        .as_ref()
-        .is_none_or(|warm| path_of(warm) == path_of(&cold));
-    let answered = warm.unwrap_or(cold);
+    let (answered, used, is_same) = ask(&mut session, &request, &job);
     if let Some(path) = &job.answer {
         let mut answer = serde_json::to_vec(&answered.answer).map_err(std::io::Error::from)?;
         answer.push(b'\n');
@@ -78,8 +63,58 @@ pub(crate) fn run_one(job: &str, out: &mut impl Write) -> Result<Ending, Failure
     {
         row.set("optimal_length_cells", &json!(optimal_length_cells));
     }
-    writeln!(out, "{}", row.to_json())?;
+    let told = Told {
+        row: row.values(),
+        history: history(&answered),
+        path: path(&answered),
+    };
+    serde_json::to_writer(&mut *out, &told).map_err(std::io::Error::from)?;
+    writeln!(out)?;
     Ok(Ending::Done)
+}
+
+/// Asks as often as the run says: the answer that counts, what was used for it, and whether all
+/// answers have the same path.
+fn ask(session: &mut Session, request: &RequestDocument, job: &Job) -> (Answered, Value, bool) {
+    let mut ask = || session.ask(request, &RequestDocument::default(), Seed(job.seed));
+    let (used_before_s, cold) = (usage::cpu_s(), ask());
+    let (used_cold_s, warm) = (usage::cpu_s(), (!job.limits.is_cold).then(ask));
+    // Before anything else uses up more. What the first asking took is not counted twice.
+    let warmed_up_s = warm.is_some().then(|| Some(used_cold_s? - used_before_s?));
+    let cpu_s = usage::cpu_s().map(|all_s| all_s - warmed_up_s.flatten().unwrap_or(0.0));
+    let used = json!({
+        "cpu_s": cpu_s,
+        "peak_rss_bytes": usage::peak_rss_bytes(),
+        "cold_first_s": cold.answer.timing.first_feasible_s,
+    });
+    let is_same = warm
+        .as_ref()
+        .is_none_or(|warm| path_of(warm) == path_of(&cold));
+    (warm.unwrap_or(cold), used, is_same)
+}
+
+/// How the query went.
+fn history(answered: &Answered) -> History {
+    let improvements = answered.paths.iter().map(|told| Improvement {
+        at_s: told.at.as_secs_f64(),
+        steps: told.n_steps,
+        length_m: told.length_m,
+    });
+    let colony = answered.answer.colony.as_ref();
+    History::new(
+        improvements.collect(),
+        colony.map_or(&[], |colony| &colony.iterations),
+    )
+}
+
+/// The path found: its segments say all of it, unless it stands still at a pose.
+fn path(answered: &Answered) -> Option<PathDocument> {
+    let path = answered.answer.path.as_ref()?;
+    let n_poses = usize::from(path.segments.is_empty());
+    Some(PathDocument {
+        poses: path.poses.iter().take(n_poses).cloned().collect(),
+        segments: path.segments.clone(),
+    })
 }
 
 /// The path of an answer, if there is one.

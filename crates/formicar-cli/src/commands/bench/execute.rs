@@ -1,39 +1,43 @@
 //! Runs processes, some at a time.
 
-use super::job::Job;
-use super::row::Row;
 use anyhow::{Context, Result};
+use formicar_lab::campaign::{Job, Row, Told};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
 
-/// Carries out all runs, each in a process of its own, and hands over their rows as they come.
+/// A run that is over: its row, and what else its process has told.
+pub(crate) type Over = (Row, Told);
+
+/// Carries out all runs, each in a process of its own, and hands them over as they end, each with
+/// its place in the list.
 pub(super) fn all(
     jobs: &[&Job],
     n_at_once: u32,
-    mut on_row: impl FnMut(Row) -> Result<()>,
+    mut on_over: impl FnMut(usize, Over) -> Result<()>,
 ) -> Result<()> {
-    let program = std::env::current_exe().context("this program cannot find itself")?;
+    let program = this_program()?;
     let next = AtomicUsize::new(0);
     let bar = progress_bar(jobs.len());
     let result = thread::scope(|scope| {
         let (sender, rows) = mpsc::channel();
         for _ in 0..jobs.len().min(n_at_once as usize) {
             let (sender, next, program) = (sender.clone(), &next, &program);
-            let mine = std::iter::from_fn(move || jobs.get(next.fetch_add(1, Ordering::Relaxed)));
-            // Nobody listens any more after a failure.
-            scope.spawn(move || {
-                mine.map(|job| one(program, job))
-                    .try_for_each(|row| sender.send(row))
+            let mut mine = std::iter::from_fn(move || {
+                let place = next.fetch_add(1, Ordering::Relaxed);
+                Some((place, *jobs.get(place)?))
             });
+            // Nobody listens any more after a failure.
+            let send = move |(place, job)| sender.send((place, one(program, job))).is_ok();
+            scope.spawn(move || mine.all(send));
         }
         drop(sender);
-        for row in rows {
-            on_row(row?)?;
+        for (place, over) in rows {
+            on_over(place, over?)?;
             bar.inc(1);
         }
         Ok(())
@@ -42,30 +46,35 @@ pub(super) fn all(
     result
 }
 
-/// A bar on stderr; none where that is no terminal.
-fn progress_bar(n_jobs: usize) -> ProgressBar {
-    let style =
-        ProgressStyle::with_template("{bar:30} {pos} of {len} runs, {elapsed} of {duration}");
+/// This program, which runs itself.
+pub(crate) fn this_program() -> Result<PathBuf> {
+    std::env::current_exe().context("this program cannot find itself")
+}
+
+/// A bar on stderr with the time left; none where that is no terminal.
+pub(crate) fn progress_bar(n_jobs: usize) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:30} {pos} of {len} runs, {elapsed}, {eta} left");
     let bar = ProgressBar::new(n_jobs as u64);
     bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
-fn one(program: &Path, job: &Job) -> Result<Row> {
+/// Carries out one run by a program.
+pub(crate) fn one(program: &Path, job: &Job) -> Result<Over> {
     let output = Command::new(program)
         .arg("bench-run")
         .arg(serde_json::to_string(job)?)
         .stdin(Stdio::null())
         .output();
     let output = output.with_context(|| format!("{} cannot be started", program.display()))?;
-    Ok(row_of(job, &output))
+    Ok(over(job, &output))
 }
 
-/// The row of a run that is over. One that has not told its own has crashed.
-fn row_of(job: &Job, output: &Output) -> Row {
+/// What a process has told. One that has not told its own row has crashed.
+fn over(job: &Job, output: &Output) -> Over {
     let told = String::from_utf8_lossy(&output.stdout);
-    let row = output.status.success().then(|| Row::from_json(&told, job));
-    if let Some(row) = row.flatten() {
-        return row;
+    let over = output.status.success().then(|| Told::read(&told, job));
+    if let Some(over) = over.flatten() {
+        return over;
     }
     let errors = String::from_utf8_lossy(&output.stderr);
     let lines = errors.lines().map(str::trim);
@@ -74,7 +83,7 @@ fn row_of(job: &Job, output: &Output) -> Row {
     row.set("status", &json!("crashed"));
     let reason = format!("{}: {}", output.status, lines.join(" "));
     row.set("reason", &json!(reason.trim_end_matches([':', ' '])));
-    row
+    (row, Told::default())
 }
 
 #[cfg(test)]
@@ -85,8 +94,10 @@ mod tests {
     fn job() -> Job {
         serde_json::from_value(json!({
             "task": {"scenario": "a", "source": "b", "place": {"builtin": {"map": "m", "request": "r"}}},
-            "planner": "astar", "name": "astar", "seed": 3, "motion": null, "budget_steps": null,
-            "deadline_ms": null, "set": [], "is_cold": false, "answer": null,
+            "vehicle": null, "contender": {"planner": "astar", "name": "astar", "config": {}},
+            "seed": 3, "answer": null, "limits": {
+                "motion": null, "budget_steps": null, "deadline_ms": null, "is_cold": false,
+            },
         }))
         .unwrap()
     }
@@ -100,20 +111,20 @@ mod tests {
             stdout: stdout.as_bytes().to_vec(),
             stderr: b"thread main panicked at x\nsuch, \"is\" life\n".to_vec(),
         };
-        let row = row_of(&job(), &output(9, ""));
+        let (row, _) = over(&job(), &output(9, ""));
         assert_eq!(row.get("status"), "crashed");
         assert!(row.get("reason").contains("signal: 9"), "{row:?}");
         assert!(row.get("reason").contains("x such, \"is\" life"));
-        assert_eq!(row.key(), job().key());
+        assert_eq!(row.key(), job().row_key());
         for (status, stdout) in [
             (0, "half a ro"),
             (256, &*told("a")),
             (0, &*told("of another")),
         ] {
-            let row = row_of(&job(), &output(status, stdout));
+            let (row, _) = over(&job(), &output(status, stdout));
             assert_eq!(row.get("status"), "crashed", "{stdout}");
         }
-        let row = row_of(&job(), &output(0, &told("a")));
+        let (row, _) = over(&job(), &output(0, &told("a")));
         assert_eq!((row.get("status"), row.get("source")), ("found", "b"));
         assert_eq!(row.number("length_m"), Some(2.5));
     }
@@ -122,6 +133,6 @@ mod tests {
         let row: Value = json!({
             "scenario": scenario, "planner": "astar", "seed": 3, "status": "found", "length_m": 2.5,
         });
-        row.to_string()
+        json!({"row": row, "history": {}, "path": null}).to_string()
     }
 }

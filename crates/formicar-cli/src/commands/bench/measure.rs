@@ -1,7 +1,6 @@
 //! What is measured of a run beyond its answer: the clearance of its ends, the cost of its path,
 //! and how long the judge takes.
 
-use super::row::Row;
 use formicar::collision::Body;
 use formicar::geometry::{Arc, Pose2};
 use formicar::objective::{DriveCost, DriveMeter};
@@ -10,6 +9,7 @@ use formicar::planner::{Plan, Planner};
 use formicar::scenario::Request;
 use formicar::validation::judge;
 use formicar::vehicle::Motion;
+use formicar_lab::campaign::Row;
 use serde_json::json;
 use std::time::Instant;
 

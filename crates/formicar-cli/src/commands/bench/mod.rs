@@ -1,13 +1,16 @@
-//! `bench`: planners on scenarios, one process per run, into a table that survives a kill.
+//! `bench`: planners on scenarios, one process per run, into a store or a table that survives a
+//! kill.
 
 mod args;
+pub(super) mod campaign;
 mod child;
-mod execute;
-mod job;
+pub(super) mod execute;
 mod measure;
+mod place;
 mod results;
-mod row;
+mod runs;
 mod standing;
+pub(super) mod store;
 mod suite;
 mod summary;
 mod usage;
@@ -18,28 +21,51 @@ pub(crate) use child::run_one;
 
 use super::machine;
 use crate::failure::{Ending, Failure};
-use crate::settings;
 use anyhow::{Context, Result};
 use formicar::map::format::write_atomically;
-use job::Job;
+use formicar_lab::campaign::{Job, Row};
 use results::Results;
+use runs::Runs;
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::Write;
-use suite::Task;
-use variant::Variant;
+use std::path::Path;
 
 /// Carries out `bench`.
 pub(crate) fn run(args: &BenchArgs, out: &mut impl Write) -> Result<Ending, Failure> {
-    let jobs = jobs(args)?;
+    let runs = match args.campaign_file()? {
+        Some(path) => campaign::read(path)?,
+        None => Runs::of_flags(args)?,
+    };
+    match (&args.store, &args.out) {
+        (Some(path), _) => store::run(&runs, path, args.jobs, out),
+        (None, Some(folder)) => into_folder(args, &runs, folder, out),
+        // One of the two is required.
+        (None, None) => Ok(Ending::Refused),
+    }
+}
+
+/// Carries out what is missing of the table of a folder.
+fn into_folder(
+    args: &BenchArgs,
+    runs: &Runs,
+    folder: &Path,
+    out: &mut impl Write,
+) -> Result<Ending, Failure> {
+    let mut jobs = runs.jobs();
+    for job in jobs.iter_mut().filter(|_| args.paths) {
+        let (scenario, planner, seed) = job.row_key();
+        let file = format!("{scenario}.{planner}.{seed}.json");
+        job.answer = Some(folder.join("paths").join(file));
+    }
     let peers = standing::peers(&jobs)?;
-    let (mut results, missing) = open(args, &jobs)?;
+    let (mut results, missing) = open(args, folder, &jobs)?;
     let n_kept = jobs.len() - missing.len();
-    execute::all(&missing, args.jobs, |row| results.append(row))?;
+    execute::all(&missing, args.jobs, |_, (row, _)| results.append(row))?;
     results.finish()?;
     let table = summary::Summary::new(results.rows());
     let write = |name: &str, text: String| -> Result<()> {
-        let path = args.out.join(name);
+        let path = folder.join(name);
         write_atomically(&path, text.as_bytes())
             .with_context(|| format!("{} cannot be written", path.display()))
     };
@@ -53,51 +79,31 @@ pub(crate) fn run(args: &BenchArgs, out: &mut impl Write) -> Result<Ending, Fail
     } else {
         String::new()
     };
-    let folder = args.out.display();
+    let folder = folder.display();
     writeln!(out, "{} runs{kept}: see {folder}", missing.len())?;
     Ok(Ending::Done)
 }
 
-/// Every run, in order; refused as a whole where something is wrong with one.
-fn jobs(args: &BenchArgs) -> Result<Vec<Job>> {
-    let variants = variant::all(args);
-    for variant in &variants {
-        settings::load(None, &variant.set, Some(variant.planner))?;
-    }
-    let planners: Vec<_> = variants.iter().map(|variant| variant.planner).collect();
-    let tasks = suite::tasks(&args.scenarios, args.limit, &planners)?;
-    let of = |task: &Task, variant: &Variant| {
-        let seeds = 0..args.seeds;
-        seeds
-            .map(|seed| Job::new(args, task.clone(), variant, seed))
-            .collect::<Vec<_>>()
-    };
-    let jobs = tasks
-        .iter()
-        .flat_map(|task| variants.iter().flat_map(move |variant| of(task, variant)));
-    Ok(jobs.collect())
-}
-
 /// The folder of results, with what stands in it from before, and the runs that are missing.
-fn open<'a>(args: &BenchArgs, jobs: &'a [Job]) -> Result<(Results, Vec<&'a Job>)> {
+fn open<'a>(args: &BenchArgs, out: &Path, jobs: &'a [Job]) -> Result<(Results, Vec<&'a Job>)> {
     let folder = if args.paths {
-        args.out.join("paths")
+        out.join("paths")
     } else {
-        args.out.clone()
+        out.to_owned()
     };
     fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
     // A row whose answer is asked for, and is not there, is not complete.
     let incomplete: BTreeSet<_> = jobs
         .iter()
         .filter(|job| job.answer.as_ref().is_some_and(|path| !path.exists()))
-        .map(Job::key)
+        .map(Job::row_key)
         .collect();
-    let results = Results::open(&args.out, &args.conditions(), &incomplete)?;
-    let path = args.out.join("MACHINE.md");
+    let results = Results::open(out, &args.conditions(), &incomplete)?;
+    let path = out.join("MACHINE.md");
     write_atomically(&path, machine::description().as_bytes())
         .with_context(|| format!("{} cannot be written", path.display()))?;
-    let done: BTreeSet<_> = results.rows().iter().map(row::Row::key).collect();
-    let missing = jobs.iter().filter(|job| !done.contains(&job.key()));
+    let done: BTreeSet<_> = results.rows().iter().map(Row::key).collect();
+    let missing = jobs.iter().filter(|job| !done.contains(&job.row_key()));
     let missing = missing.collect();
     Ok((results, missing))
 }

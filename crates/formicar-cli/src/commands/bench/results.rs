@@ -1,10 +1,9 @@
 //! results.csv: a row is written as soon as its run is over, and survives a kill.
 
-use super::job::Key;
-use super::row::{COLUMNS, Row};
 use crate::files;
 use anyhow::{Context, Result, anyhow, bail};
 use formicar::map::format::write_atomically;
+use formicar_lab::campaign::{COLUMNS, Row, RowKey};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions};
@@ -22,7 +21,11 @@ pub(super) struct Results {
 impl Results {
     /// The table of a folder with its complete rows, but for those to be done again; a line that
     /// a kill has torn is dropped.
-    pub(super) fn open(folder: &Path, conditions: &Value, again: &BTreeSet<Key>) -> Result<Self> {
+    pub(super) fn open(
+        folder: &Path,
+        conditions: &Value,
+        again: &BTreeSet<RowKey>,
+    ) -> Result<Self> {
         let path = folder.join("results.csv");
         let settings = folder.join("settings.json");
         let rows = if path.exists() {

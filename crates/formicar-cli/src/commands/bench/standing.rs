@@ -1,12 +1,11 @@
 //! Results beside goals and peers, as a page and as Markdown.
 
-use super::job::Job;
 use super::results::Results;
-use super::suite::Place;
 use super::{BenchArgs, machine, variant};
 use crate::files;
 use anyhow::{Context, Result};
 use formicar::scenario::MotionMode;
+use formicar_lab::campaign::{Job, Place};
 use formicar_lab::report::{Fact, Page, markdown, page};
 use formicar_lab::standing::{Peer, Standing};
 use std::collections::BTreeSet;
@@ -24,7 +23,7 @@ pub(super) fn files(
     let forward_only = args.motion == Some(MotionMode::Forward);
     let mut standing = Standing::read(&results.text()?, peers, forward_only)?;
     // Variants in the order of the flags, the plain planner first.
-    let names: Vec<String> = variant::all(args).into_iter().map(|v| v.name).collect();
+    let names: Vec<String> = variant::all(args)?.into_iter().map(|v| v.name).collect();
     let place = |planner: &str| names.iter().position(|name| name == planner);
     standing
         .runs

@@ -1,6 +1,7 @@
 //! From the words on the command line to scenarios; everything wrong with them is found here,
 //! before anything is started.
 
+use super::place;
 use crate::args::GroundArgs;
 use crate::files::ScenarioFile;
 use crate::ground;
@@ -8,35 +9,19 @@ use anyhow::{Context, Result, anyhow, bail};
 use formicar::map::builtin::{self, BuiltinKind, BuiltinMap};
 use formicar::map::format::{MovingAiScenario, read_movingai_scenarios};
 use formicar::planner::PlannerName;
-use serde::{Deserialize, Serialize};
+use formicar_lab::campaign::{Place, Task};
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-/// A scenario to be planned.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Task {
-    /// Its name, unique in a table.
-    pub(super) scenario: String,
-    /// The file or built-in map that it comes from.
-    pub(super) source: String,
-    pub(super) place: Place,
-}
-
-/// Where start, goal and map are found.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(super) enum Place {
-    /// In a scenario file.
-    File { path: PathBuf, id: Option<String> },
-    /// In the library.
-    Builtin { map: String, request: String },
-    /// On a `MovingAI` map.
-    Cells {
-        map: PathBuf,
-        start: [u32; 2],
-        goal: [u32; 2],
-        optimal_length_cells: f64,
-    },
+/// A word for scenarios, with what goes with it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Source<'a> {
+    /// A file, a built-in map or a set of them.
+    pub(super) word: &'a str,
+    /// Lines of a .scen file that are taken; all where there is none.
+    pub(super) limit: Option<u32>,
+    /// Side of a cell, where the file leaves that open.
+    pub(super) resolution_m: Option<f64>,
 }
 
 /// All scenarios that the words name.
@@ -47,10 +32,21 @@ pub(super) fn tasks(
 ) -> Result<Vec<Task>> {
     let mut tasks = Vec::new();
     for word in words {
-        tasks.extend(tasks_of(word, limit, planners)?);
+        let source = Source {
+            word,
+            limit,
+            resolution_m: None,
+        };
+        tasks.extend(tasks_of(&source, planners)?);
     }
+    check_names(&tasks)?;
+    Ok(tasks)
+}
+
+/// Refuses scenarios whose names are no names of files, or not their own.
+pub(super) fn check_names(tasks: &[Task]) -> Result<()> {
     let mut names = BTreeSet::new();
-    for task in &tasks {
+    for task in tasks {
         let name = &task.scenario;
         if name.is_empty() || name.contains(|c: char| c == '/' || c == '\\' || c.is_control()) {
             bail!("scenario {name:?} cannot name a file; hint: an id without slashes");
@@ -59,10 +55,12 @@ pub(super) fn tasks(
             bail!("two scenarios are named {name:?}; hint: a table of their own for each");
         }
     }
-    Ok(tasks)
+    Ok(())
 }
 
-fn tasks_of(word: &str, limit: Option<u32>, planners: &[PlannerName]) -> Result<Vec<Task>> {
+/// The scenarios of one source.
+pub(super) fn tasks_of(source: &Source, planners: &[PlannerName]) -> Result<Vec<Task>> {
+    let Source { word, limit, .. } = *source;
     let path = Path::new(word);
     let extension = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
     match extension.as_deref().and_then(std::ffi::OsStr::to_str) {
@@ -74,7 +72,7 @@ fn tasks_of(word: &str, limit: Option<u32>, planners: &[PlannerName]) -> Result<
             ),
             None => of_movingai(path, limit),
         },
-        Some("json" | "csv") => of_file(path),
+        Some("json" | "csv") => of_file(path, source.resolution_m),
         _ => of_builtin(word),
     }
 }
@@ -112,7 +110,7 @@ fn of_builtin(word: &str) -> Result<Vec<Task>> {
     Ok(tasks.collect())
 }
 
-fn of_file(path: &Path) -> Result<Vec<Task>> {
+fn of_file(path: &Path, resolution_m: Option<f64>) -> Result<Vec<Task>> {
     let (file, source) = (ScenarioFile::read(path)?, stem(path)?);
     let task = |scenario: String, id: Option<String>| Task {
         scenario,
@@ -120,6 +118,7 @@ fn of_file(path: &Path) -> Result<Vec<Task>> {
         place: Place::File {
             path: path.to_owned(),
             id,
+            resolution_m,
         },
     };
     let tasks: Vec<_> = match &file {
@@ -131,14 +130,7 @@ fn of_file(path: &Path) -> Result<Vec<Task>> {
     };
     for task in &tasks {
         // A map that cannot be read is found now rather than once per run.
-        let Place::File { path, id } = &task.place else {
-            continue;
-        };
-        ground::find(&GroundArgs {
-            scenario: Some(path.clone()),
-            id: id.clone(),
-            ..GroundArgs::default()
-        })?;
+        ground::find(&place::ground_args(task, None))?;
     }
     Ok(tasks)
 }
@@ -191,9 +183,9 @@ fn task_of_line(source: &str, map: &Path, i: usize, line: &MovingAiScenario) -> 
 }
 
 /// At most `limit` of `n` indices, evenly spread from the first to the last.
-fn spread(n: usize, limit: Option<u32>) -> impl Iterator<Item = usize> {
+pub(super) fn spread(n: usize, limit: Option<u32>) -> impl Iterator<Item = usize> {
     let n_taken = limit.map_or(n, |limit| n.min(limit as usize));
-    (0..n_taken).map(move |i| i * (n - 1) / n_taken.saturating_sub(1).max(1))
+    (0..n_taken).map(move |i| i * n.saturating_sub(1) / n_taken.saturating_sub(1).max(1))
 }
 
 fn stem(path: &Path) -> Result<String> {

@@ -1,6 +1,6 @@
 //! What the rows come to, per source of scenarios and planner.
 
-use super::row::Row;
+use formicar_lab::campaign::Row;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::{self, Write};

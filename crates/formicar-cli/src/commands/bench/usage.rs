@@ -14,6 +14,16 @@ pub(super) fn cpu_s() -> Option<f64> {
     seconds
 }
 
+/// Ends this process when the one that has started it ends, killed or not; on Linux.
+pub(super) fn end_with_parent() {
+    #[cfg(target_os = "linux")]
+    {
+        // Where it is not allowed the process ends by itself, when its run is over.
+        let _ =
+            rustix::process::set_parent_process_death_signal(Some(rustix::process::Signal::KILL));
+    }
+}
+
 /// The largest resident memory so far, bytes; none but on Linux.
 pub(super) fn peak_rss_bytes() -> Option<u64> {
     peak(&fs::read_to_string("/proc/self/status").ok()?)

@@ -1,16 +1,11 @@
-//! What is compared: planners, or one planner with parts of it left out.
+//! What the flags compare: planners, or one planner with parts of it left out.
 
 use super::BenchArgs;
+use crate::settings;
+use anyhow::Result;
 use formicar::planner::PlannerName;
-
-/// A planner with parameters of its own, and the name that it goes by.
-#[derive(Clone, Debug)]
-pub(super) struct Variant {
-    pub(super) name: String,
-    pub(super) planner: PlannerName,
-    /// Parameters as `--set` takes them.
-    pub(super) set: Vec<String>,
-}
+use formicar_lab::campaign::Contender;
+use toml::Table;
 
 /// Formicar with parts left out.
 const ABLATIONS: [(&str, &[&str]); 9] = [
@@ -31,32 +26,32 @@ const ABLATIONS: [(&str, &[&str]); 9] = [
     ),
 ];
 
-/// All variants that the flags name, each once; flags that set parameters hold for all of them.
-pub(super) fn all(args: &BenchArgs) -> Vec<Variant> {
+/// All contenders that the flags name, each once; flags that set parameters hold for all of them.
+pub(super) fn all(args: &BenchArgs) -> Result<Vec<Contender>> {
     if args.ablations {
-        return ABLATIONS
-            .iter()
-            .map(|&(name, set)| ablation(args, name, set))
+        let ablations = ABLATIONS.iter();
+        return ablations
+            .map(|(name, set)| {
+                let own = set.iter().map(|&key| key.to_owned());
+                let sets: Vec<String> = args.set.iter().cloned().chain(own).collect();
+                contender(name, PlannerName::Formicar, &sets)
+            })
             .collect();
     }
-    let mut variants: Vec<Variant> = Vec::new();
-    for &planner in &args.planners {
-        if variants.iter().all(|variant| variant.planner != planner) {
-            variants.push(Variant {
-                name: planner.name().to_owned(),
-                planner,
-                set: args.set.clone(),
-            });
+    let mut contenders: Vec<Contender> = Vec::new();
+    for planner in args.planners() {
+        if contenders.iter().all(|other| other.planner != planner) {
+            contenders.push(contender(planner.name(), planner, &args.set)?);
         }
     }
-    variants
+    Ok(contenders)
 }
 
-fn ablation(args: &BenchArgs, name: &str, set: &[&str]) -> Variant {
-    let own = set.iter().map(|&key| key.to_owned());
-    Variant {
+fn contender(name: &str, planner: PlannerName, sets: &[String]) -> Result<Contender> {
+    let blank = (Table::new(), "the planner's parameters");
+    Ok(Contender {
         name: name.to_owned(),
-        planner: PlannerName::Formicar,
-        set: args.set.iter().cloned().chain(own).collect(),
-    }
+        planner,
+        config: settings::merge(blank, sets, Some(planner))?,
+    })
 }

@@ -1,10 +1,10 @@
-//! A row of results.csv.
+//! A row of results: what was measured of one run.
 
-use super::job::{Job, Key};
+use super::job::{Job, RowKey};
 use serde_json::{Map, Value};
 
 /// The columns, in their order.
-pub(super) const COLUMNS: [&str; 54] = [
+pub const COLUMNS: [&str; 54] = [
     "scenario",
     "planner",
     "seed",
@@ -63,7 +63,7 @@ pub(super) const COLUMNS: [&str; 54] = [
 
 /// Times into the query, seconds, with the columns of the path known by then: length, clearance,
 /// cusps.
-pub(super) const KNOWN_BY: [(f64, [&str; 3]); 2] = [
+pub const KNOWN_BY: [(f64, [&str; 3]); 2] = [
     (
         0.1,
         ["length_0.1s_m", "min_clearance_0.1s_m", "n_cusps_0.1s"],
@@ -73,13 +73,19 @@ pub(super) const KNOWN_BY: [(f64, [&str; 3]); 2] = [
 
 /// The values of a run, one per column; empty where there is none.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Row(Vec<String>);
+pub struct Row(Vec<String>);
+
+impl Default for Row {
+    fn default() -> Self {
+        Self(vec![String::new(); COLUMNS.len()])
+    }
+}
 
 impl Row {
     /// A row with nothing but what tells it apart.
-    pub(super) fn begin(job: &Job) -> Self {
-        let mut row = Self(vec![String::new(); COLUMNS.len()]);
-        let (scenario, planner, seed) = job.key();
+    pub fn begin(job: &Job) -> Self {
+        let mut row = Self::default();
+        let (scenario, planner, seed) = job.row_key();
         row.set("scenario", &scenario.into());
         row.set("planner", &planner.into());
         row.set("seed", &seed.into());
@@ -88,35 +94,35 @@ impl Row {
     }
 
     /// A row as it stands in a file; none where it is not one.
-    pub(super) fn from_fields(fields: Vec<String>) -> Option<Self> {
+    pub fn from_fields(fields: Vec<String>) -> Option<Self> {
         let row = Self(fields);
         let is_row = row.0.len() == COLUMNS.len() && row.get("seed").parse::<u64>().is_ok();
         is_row.then_some(row)
     }
 
     /// What a process has printed; none where it is not the row of this job.
-    pub(super) fn from_json(text: &str, job: &Job) -> Option<Self> {
-        let values: Map<String, Value> = serde_json::from_str(text).ok()?;
+    pub fn from_values(values: &Map<String, Value>, job: &Job) -> Option<Self> {
         let mut row = Self::begin(job);
-        row.fill(&Value::Object(values));
-        (row.key() == job.key() && !row.get("status").is_empty()).then_some(row)
+        for (column, value) in values {
+            row.set(column, value);
+        }
+        (row.key() == job.row_key() && !row.get("status").is_empty()).then_some(row)
     }
 
     /// The values that there are, by column.
-    pub(super) fn to_json(&self) -> Value {
+    pub fn values(&self) -> Map<String, Value> {
         let filled = COLUMNS.iter().zip(&self.0).filter(|(_, v)| !v.is_empty());
-        Value::Object(
-            filled
-                .map(|(c, v)| ((*c).into(), v.clone().into()))
-                .collect(),
-        )
+        let values = filled.map(|(c, v)| ((*c).into(), v.clone().into()));
+        values.collect()
     }
 
-    pub(super) fn fields(&self) -> &[String] {
+    /// The values in the order of the columns.
+    pub fn fields(&self) -> &[String] {
         &self.0
     }
 
-    pub(super) fn key(&self) -> Key {
+    /// What tells the row apart.
+    pub fn key(&self) -> RowKey {
         let seed = self.get("seed").parse().unwrap_or_default();
         (
             self.get("scenario").into(),
@@ -125,18 +131,24 @@ impl Row {
         )
     }
 
-    pub(super) fn get(&self, column: &str) -> &str {
+    /// The value in a column as text; empty where there is none.
+    pub fn get(&self, column: &str) -> &str {
         let index = COLUMNS.iter().position(|c| *c == column);
         index.map_or("", |i| self.0[i].as_str())
     }
 
+    /// Whether a path was returned that carries a certificate.
+    pub fn is_solved(&self) -> bool {
+        self.get("status") == "found" && self.get("valid") == "true"
+    }
+
     /// The number in a column.
-    pub(super) fn number(&self, column: &str) -> Option<f64> {
+    pub fn number(&self, column: &str) -> Option<f64> {
         self.get(column).parse().ok()
     }
 
     /// Takes a value for a column; others are none of the table's.
-    pub(super) fn set(&mut self, column: &str, value: &Value) {
+    pub fn set(&mut self, column: &str, value: &Value) {
         let Some(index) = COLUMNS.iter().position(|c| *c == column) else {
             return;
         };
@@ -149,7 +161,7 @@ impl Row {
     }
 
     /// Takes the values of an object; those of an object in it as `outer_inner`.
-    pub(super) fn fill(&mut self, values: &Value) {
+    pub fn fill(&mut self, values: &Value) {
         let Value::Object(values) = values else {
             return;
         };

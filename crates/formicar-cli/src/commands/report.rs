@@ -1,0 +1,133 @@
+//! `report`: stores as one page with tables, and as CSV and LaTeX.
+
+use super::results;
+use crate::failure::{Ending, Failure};
+use anyhow::Result;
+use clap::{Args, ValueHint};
+use formicar_lab::campaign::{Record, Stored, report, to_csv};
+use formicar_lab::report::{Fact, latex, markdown};
+use std::collections::BTreeSet;
+use std::io::Write;
+use std::path::PathBuf;
+
+/// Flags of `report`.
+#[derive(Args, Debug)]
+pub(crate) struct ReportArgs {
+    /// Stores or results.csv files of `bench`. Planners of one name in several are told apart by
+    /// the names of the files.
+    #[arg(required = true, value_hint = ValueHint::FilePath)]
+    pub(crate) stores: Vec<PathBuf>,
+
+    /// Folder for index.html, summary.md, tables.tex and results.csv, made where it does not exist.
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(crate) out: PathBuf,
+}
+
+/// Carries out `report`.
+pub(crate) fn run(args: &ReportArgs, out: &mut impl Write) -> Result<Ending, Failure> {
+    let mut stores = Vec::new();
+    for path in &args.stores {
+        let is_it = |other: &&PathBuf| results::name(other) == results::name(path);
+        let name = match args.stores.iter().filter(is_it).count() {
+            1 => results::name(path),
+            _ => path.display().to_string(),
+        };
+        stores.push((name, results::read(path)?));
+    }
+    tell_apart(&mut stores);
+    let facts = facts(&stores);
+    let configs = configs(&stores);
+    let title: Vec<&str> = stores
+        .iter()
+        .map(|(_, store)| store.name.as_str())
+        .collect();
+    let title = title.join(", ");
+    let records: Vec<Record> = stores.into_iter().flat_map(|(_, s)| s.records).collect();
+    let report = report(&title, &records)?;
+    let mut files = results::report_files(&report, &facts, &configs);
+    files.push(("tables.tex".to_owned(), latex(&report)));
+    files.push(("results.csv".to_owned(), to_csv(&records)?));
+    results::write_all(&args.out, &files)?;
+    write!(out, "{}", markdown(&report))?;
+    let page = args.out.join("index.html");
+    writeln!(out, "\n{} runs: see {}", records.len(), page.display())?;
+    Ok(Ending::Done)
+}
+
+/// Adds the name of its file to a planner that several files name.
+fn tell_apart(stores: &mut [(String, Stored)]) {
+    let planners = |store: &Stored| -> BTreeSet<String> {
+        let names = store.records.iter().map(|r| r.get("planner").to_owned());
+        names.collect()
+    };
+    let of_stores: Vec<_> = stores.iter().map(|(_, store)| planners(store)).collect();
+    let is_shared = |name: &str| of_stores.iter().filter(|of| of.contains(name)).count() > 1;
+    for (file, store) in stores.iter_mut() {
+        for record in &mut store.records {
+            let planner = record.get("planner").to_owned();
+            if is_shared(&planner) {
+                let told = format!("{planner} ({file})");
+                record.row.set("planner", &told.into());
+            }
+        }
+        for config in &mut store.configs {
+            if is_shared(&config.name) {
+                config.name = format!("{} ({file})", config.name);
+            }
+        }
+    }
+}
+
+/// Where the runs come from.
+fn facts(stores: &[(String, Stored)]) -> Vec<Fact> {
+    let mut facts = Vec::new();
+    for (file, store) in stores {
+        let n_done = store.records.len();
+        let about = format!("`{file}`: {n_done} of {} runs are done", store.n_planned);
+        facts.push(Fact::new("Store", about));
+        for (column, name) in [
+            ("machine", "Machine"),
+            ("version", "formicar"),
+            ("build", "Build"),
+            ("budget_steps", "Budget, steps"),
+            ("deadline_ms", "Deadline, ms"),
+        ] {
+            let values: BTreeSet<&str> = store.records.iter().map(|r| r.get(column)).collect();
+            let values: Vec<&str> = values.into_iter().filter(|v| !v.is_empty()).collect();
+            if !values.is_empty() {
+                facts.push(Fact::new(name, values.join("; ")));
+            }
+        }
+        facts.extend(hashes(&store.records));
+        if !store.text.is_empty() {
+            facts.push(Fact::new("Campaign", store.text.clone()));
+        }
+    }
+    facts
+}
+
+/// The maps and vehicles of all scenarios, by hash.
+fn hashes(records: &[Record]) -> Vec<Fact> {
+    let mut facts = Vec::new();
+    for (column, name) in [("map_hash", "Map"), ("vehicle_hash", "Vehicle")] {
+        let hashes: BTreeSet<&str> = records.iter().map(|r| r.get(column)).collect();
+        for hash in hashes.into_iter().filter(|hash| !hash.is_empty()) {
+            let of_hash = records.iter().filter(|r| r.get(column) == hash);
+            let sources: BTreeSet<&str> = of_hash.map(|r| r.get("source")).collect();
+            let sources: Vec<&str> = sources.into_iter().collect();
+            let about = format!("hash `{hash}`, in scenarios of {}", sources.join(", "));
+            facts.push(Fact::new(name, about));
+        }
+    }
+    facts
+}
+
+fn configs(stores: &[(String, Stored)]) -> Vec<Fact> {
+    let configs = stores.iter().flat_map(|(_, store)| &store.configs);
+    let fact = |config: &formicar_lab::campaign::ConfigRecord| {
+        let value = serde_json::from_str::<serde_json::Value>(&config.json);
+        let pretty = value.map_or_else(|_| config.json.clone(), |value| format!("{value:#}"));
+        Fact::new(&config.name, pretty)
+    };
+    configs.map(fact).collect()
+}

@@ -1,0 +1,133 @@
+//! One run: scenario, vehicle, planner, seed and limits, as the process that does it is told.
+
+use formicar::planner::PlannerName;
+use formicar::scenario::MotionMode;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// Scenario, planner and seed: what tells the runs of one table apart.
+pub type RowKey = (String, String, u64);
+
+/// A scenario to be planned.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Task {
+    /// Its name, unique in a campaign.
+    pub scenario: String,
+    /// The file or built-in map that it comes from.
+    pub source: String,
+    /// Where it is found.
+    pub place: Place,
+}
+
+/// Where start, goal and map are found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Place {
+    /// In a scenario file.
+    File {
+        /// The file: car scenarios (.json) or a TPCAP case (.csv).
+        path: PathBuf,
+        /// Which of its scenarios; none where it is one.
+        id: Option<String>,
+        /// Side of a cell, where the file leaves that open, metres.
+        resolution_m: Option<f64>,
+    },
+    /// In the library.
+    Builtin {
+        /// The map.
+        map: String,
+        /// One of its requests.
+        request: String,
+    },
+    /// On a `MovingAI` map.
+    Cells {
+        /// The map.
+        map: PathBuf,
+        /// Column and row.
+        start: [u32; 2],
+        /// Column and row.
+        goal: [u32; 2],
+        /// The published optimum without corner cutting, cells.
+        optimal_length_cells: f64,
+    },
+}
+
+/// A planner with parameters of its own, and the name that it goes by.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Contender {
+    /// The name in tables.
+    pub name: String,
+    /// The planner.
+    pub planner: PlannerName,
+    /// Parameters that are not the planner's defaults, as in a configuration file.
+    pub config: toml::Table,
+}
+
+/// How long a run may take, and how it is asked.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Limits {
+    /// Which gears may be used.
+    pub motion: Option<MotionMode>,
+    /// Search steps after which a run gives up.
+    pub budget_steps: Option<u64>,
+    /// Time after which a run gives up, milliseconds.
+    pub deadline_ms: Option<f64>,
+    /// Whether the first asking of a planner counts rather than the second.
+    pub is_cold: bool,
+}
+
+/// A vehicle other than the scenario's own.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct VehicleChoice {
+    /// The name it goes by.
+    pub name: String,
+    /// A preset, or a file.
+    pub source: String,
+}
+
+/// One run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Job {
+    /// The scenario.
+    pub task: Task,
+    /// The vehicle; none for the scenario's own.
+    pub vehicle: Option<VehicleChoice>,
+    /// The planner.
+    pub contender: Contender,
+    /// The seed.
+    pub seed: u64,
+    /// The limits.
+    pub limits: Limits,
+    /// Where the answer is kept.
+    pub answer: Option<PathBuf>,
+}
+
+impl Job {
+    /// What tells it apart in a table of one vehicle and one motion mode.
+    pub fn row_key(&self) -> RowKey {
+        let (task, contender) = (&self.task, &self.contender);
+        (task.scenario.clone(), contender.name.clone(), self.seed)
+    }
+
+    /// The vehicle's name: `own` for the scenario's.
+    pub fn vehicle_name(&self) -> &str {
+        let chosen = self.vehicle.as_ref();
+        chosen.map_or(OWN_VEHICLE, |vehicle| &vehicle.name)
+    }
+
+    /// The preset or file of its vehicle; none for the scenario's own.
+    pub fn vehicle_source(&self) -> Option<&str> {
+        self.vehicle.as_ref().map(|vehicle| vehicle.source.as_str())
+    }
+
+    /// The motion mode's name.
+    pub fn motion_name(&self) -> &'static str {
+        match self.limits.motion.unwrap_or_default() {
+            MotionMode::Forward => "forward",
+            MotionMode::Reverse => "reverse",
+        }
+    }
+}
+
+/// The word for the vehicle that a scenario names itself.
+pub const OWN_VEHICLE: &str = "own";

@@ -1,0 +1,176 @@
+//! Runs of stores as a report: planners, each beside the first, and every scenario.
+//!
+//! A section is a function here; [`report()`] lists them.
+
+use super::record::Record;
+use crate::compare::{Duel, METHOD, METRICS, Metric, SUCCESS, Scope, planners, runs_of};
+use crate::report::{Field, Report, Section, Table};
+use crate::statistics::quartiles;
+use anyhow::Result;
+
+/// The report of runs under a name.
+///
+/// # Errors
+/// Scenarios of one name whose maps or vehicles are not the same.
+pub fn report(name: &str, records: &[Record]) -> Result<Report> {
+    let mut sections = vec![of_planners(records)];
+    sections.extend(beside_the_first(records)?);
+    sections.push(of_scenarios(records));
+    Ok(Report {
+        name: "campaign".to_owned(),
+        title: name.to_owned(),
+        intro: intro(records),
+        sections,
+    })
+}
+
+fn intro(records: &[Record]) -> String {
+    let mut scenarios: Vec<[&str; 3]> = records.iter().map(place).collect();
+    scenarios.sort_unstable();
+    scenarios.dedup();
+    let n_planners = planners(records).len();
+    let method = if n_planners > 1 {
+        format!(" Planners beside the first: {METHOD}")
+    } else {
+        String::new()
+    };
+    format!(
+        "{} runs of {n_planners} planners on {} scenarios. Solved: a path with the judge's \
+         certificate was returned. Metrics are those of solved runs, as median and quartiles.\
+         {method}",
+        records.len(),
+        scenarios.len()
+    )
+}
+
+/// Every planner: how often it solves, and each metric.
+fn of_planners(records: &[Record]) -> Section {
+    let mut heading = vec!["planner", "solved"];
+    heading.extend(metrics().map(|metric| metric.name));
+    let mut table = Table::new("planners", &heading)
+        .captioned("Solved runs with the 95 % interval of the rate (Wilson); median [quartiles].");
+    for planner in planners(records) {
+        table.row(row_of(planner, &runs_of(records, planner), Field::Rate));
+    }
+    Section::of_table("Planners", table)
+}
+
+/// Every other planner beside the first, paired by scenario and seed.
+fn beside_the_first(records: &[Record]) -> Result<Vec<Section>> {
+    let names = planners(records);
+    let Some((first, others)) = names.split_first() else {
+        return Ok(Vec::new());
+    };
+    let of_first = runs_of(records, first);
+    let sections = others.iter().map(|other| {
+        let duel = Duel::new(&of_first, &runs_of(records, other), Scope::All)?;
+        Ok(duel.section([first, other]))
+    });
+    sections.collect()
+}
+
+/// Every scenario with every planner.
+fn of_scenarios(records: &[Record]) -> Section {
+    let mut heading = vec!["scenario", "solved"];
+    heading.extend(metrics().map(|metric| metric.name));
+    let mut table =
+        Table::new("scenarios", &heading).captioned("Over the seeds: median [quartiles].");
+    let mut places: Vec<[&str; 3]> = Vec::new();
+    for record in records {
+        if !places.contains(&place(record)) {
+            places.push(place(record));
+        }
+    }
+    let is_plain = |i: usize| places.iter().all(|p| p[i] == places[0][i]);
+    let plain = [false, is_plain(1), is_plain(2)];
+    for of_place in &places {
+        for planner in planners(records) {
+            let runs = runs_of(records, planner);
+            let runs: Vec<&Record> = runs.into_iter().filter(|r| place(r) == *of_place).collect();
+            if !runs.is_empty() {
+                let words = of_place.iter().zip(plain).filter(|(_, is_plain)| !is_plain);
+                let mut words: Vec<&str> = words.map(|(word, _)| *word).collect();
+                words.push(planner);
+                table.row(row_of(&words.join(" "), &runs, Field::Count));
+            }
+        }
+    }
+    Section::of_table("Scenarios", table)
+}
+
+/// Scenario, vehicle, motion mode: the last two are named where they are not all the same.
+fn place(record: &Record) -> [&str; 3] {
+    ["scenario", "vehicle", "motion"].map(|column| record.get(column))
+}
+
+/// All metrics but success.
+fn metrics() -> impl Iterator<Item = &'static Metric> {
+    METRICS.iter().filter(|metric| metric.name != SUCCESS)
+}
+
+fn row_of(name: &str, runs: &[&Record], solved: fn(usize, usize) -> Field) -> Vec<Field> {
+    let n_solved = runs.iter().filter(|run| run.row.is_solved()).count();
+    let mut row = vec![Field::words(name), solved(n_solved, runs.len())];
+    row.extend(metrics().map(|metric| {
+        let values: Vec<f64> = runs.iter().filter_map(|run| metric.of(run)).collect();
+        Field::Spread(quartiles(&values), metric.n_decimals)
+    }));
+    row
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::markdown;
+    use serde_json::json;
+
+    fn record(scenario: &str, planner: &str, seed: u64, length_m: Option<f64>) -> Record {
+        let mut record = Record::default();
+        record.row.fill(&json!({
+            "scenario": scenario, "planner": planner, "seed": seed, "length_m": length_m,
+            "status": if length_m.is_some() { "found" } else { "no_path" },
+            "valid": length_m.map(|_| true),
+        }));
+        record
+    }
+
+    #[test]
+    fn planners_and_scenarios_have_a_row_each() {
+        let records: Vec<Record> = (0..3)
+            .flat_map(|seed| {
+                let x = seed as f64;
+                [
+                    record("s", "one", seed, Some(10.0 + x)),
+                    record("s", "two", seed, (seed > 0).then_some(20.0 + x)),
+                ]
+            })
+            .collect();
+        let text = markdown(&report("a campaign", &records).unwrap());
+        assert!(
+            text.contains("6 runs of 2 planners on 1 scenarios"),
+            "{text}"
+        );
+        assert!(text.contains("| one | 3/3 [44, 100] % | - | - | 11.000 [10.500, 11.500] |"));
+        assert!(text.contains("## `two` beside `one`"), "{text}");
+        assert!(text.contains("Solved by one alone: s seed 0."), "{text}");
+        assert!(
+            text.contains("| s two | 2/3 | - | - | 21.500 [21.250, 21.750] |"),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn vehicles_are_named_where_there_are_several() {
+        let mut records = vec![
+            record("s", "p", 0, Some(1.0)),
+            record("s", "p", 0, Some(2.0)),
+        ];
+        records[0].origin.set("vehicle", "own");
+        records[1].origin.set("vehicle", "sedan");
+        let text = markdown(&report("c", &records).unwrap());
+        assert!(
+            text.contains("| s own p |") && text.contains("| s sedan p |"),
+            "{text}"
+        );
+    }
+}

@@ -1,0 +1,174 @@
+//! Verdicts on sides whose difference is known.
+
+use super::*;
+use serde_json::json;
+
+/// What a run of a side comes to.
+type Values = fn(usize) -> serde_json::Value;
+
+/// Twelve scenarios with two seeds each.
+fn side(name: &str, planner: &str, values: Values) -> Side {
+    let record = |i: usize| {
+        let mut record = Record::default();
+        record.row.fill(&json!({
+            "scenario": format!("s{}", i / 2), "planner": planner, "seed": i % 2,
+            "status": "found", "valid": true,
+        }));
+        record.row.fill(&values(i));
+        for (column, value) in [("machine", "one"), ("build", "release"), ("map_hash", "m")] {
+            record.origin.set(column, value);
+        }
+        record
+    };
+    Side {
+        name: name.to_owned(),
+        records: (0..24).map(record).collect(),
+    }
+}
+
+fn base(i: usize) -> serde_json::Value {
+    let x = i as f64;
+    json!({
+        "length_m": 50.0 + x, "query_s": 0.1 + 0.001 * x, "steps": 100 + i, "n_cusps": 0,
+        "min_clearance_m": 0.3, "peak_rss_bytes": 30_000_000, "first_feasible_s": 0.01,
+        "cost_m": 60.0 + x, "first_steps": 10,
+    })
+}
+
+/// Longer and slower by a tenth, more clearance.
+fn other(i: usize) -> serde_json::Value {
+    let x = i as f64;
+    json!({
+        "length_m": 55.0 + 1.1 * x, "query_s": 0.11 + 0.0011 * x, "steps": 100 + i, "n_cusps": 0,
+        "min_clearance_m": 0.31, "peak_rss_bytes": 30_100_000, "first_feasible_s": 0.01,
+        "cost_m": 60.0 + x, "first_steps": 10,
+    })
+}
+
+/// As the base, with two runs lost.
+fn failing(i: usize) -> serde_json::Value {
+    let mut values = base(i);
+    if i < 2 {
+        values["status"] = json!("no_path");
+        values["valid"] = json!(null);
+    }
+    values
+}
+
+fn compare(a: &Side, b: &Side) -> Comparison {
+    Comparison::new(a, b, Scope::All).unwrap()
+}
+
+fn verdict(comparison: &Comparison, metric: &str) -> Verdict {
+    let mut findings = comparison.duels[0].findings.iter();
+    findings.find(|f| f.metric == metric).unwrap().verdict
+}
+
+#[test]
+fn differences_are_told_where_there_are_any() {
+    let (a, b) = (side("a", "p", base), side("b", "p", other));
+    let found = compare(&a, &b);
+    assert!(found.is_worse() && !found.has_lost());
+    assert_eq!(verdict(&found, "length m"), Verdict::Worse);
+    assert_eq!(verdict(&found, "query ms"), Verdict::Worse);
+    assert_eq!(verdict(&found, "clearance m"), Verdict::Better);
+    for same in ["success", "steps", "cost m", "cusps", "first path ms"] {
+        assert_eq!(verdict(&found, same), Verdict::NoDifferenceShown, "{same}");
+    }
+    // A third of a percent more memory in every run is noise.
+    assert_eq!(verdict(&found, "memory MB"), Verdict::NoDifferenceShown);
+    let length = &found.duels[0].findings[3];
+    let [low, mid, high] = length.ratio.unwrap();
+    assert!((mid - 1.1).abs() < 1e-12 && low <= mid && mid <= high);
+    assert_eq!((length.n_pairs, length.n_equal), (24, 0));
+    // Every value of b is above both of a on its scenario.
+    assert_eq!(length.above, Some(1.0));
+    let back = compare(&b, &a);
+    assert_eq!(verdict(&back, "length m"), Verdict::Better);
+}
+
+#[test]
+fn a_side_does_not_differ_from_itself() {
+    let a = side("a", "p", base);
+    let found = compare(&a, &a);
+    assert!(!found.is_worse());
+    let findings = &found.duels[0].findings;
+    assert!(findings.iter().all(|f| f.p.is_none() && f.n_equal == 24));
+}
+
+#[test]
+fn lost_runs_are_named_and_left_out_of_paths() {
+    let found = compare(&side("a", "p", base), &side("b", "p", failing));
+    assert!(found.has_lost());
+    assert_eq!(found.duels[0].lost, ["s0 seed 0", "s0 seed 1"]);
+    assert_eq!(found.duels[0].findings[3].n_pairs, 22);
+    assert_eq!(
+        found.duels[0].findings[0].of_sides,
+        Some([1.0, 22.0 / 24.0])
+    );
+    let text = crate::report::markdown(&found.report());
+    assert!(text.contains("| success | 24/24 | 22/24 |"), "{text}");
+    assert!(text.contains("Solved by a alone: s0 seed 0, s0 seed 1."));
+}
+
+#[test]
+fn results_alone_say_nothing_of_times() {
+    let (a, b) = (side("a", "p", base), side("b", "p", other));
+    let found = Comparison::new(&a, &b, Scope::Results).unwrap();
+    let findings = found.duels[0].findings.iter();
+    let names: Vec<&str> = findings.map(|finding| finding.metric).collect();
+    assert_eq!(names.len(), 7);
+    assert!(!names.contains(&"query ms") && !names.contains(&"memory MB"));
+    assert_eq!(verdict(&found, "length m"), Verdict::Worse);
+}
+
+#[test]
+fn seeds_that_change_nothing_count_once() {
+    let still = |i: usize| {
+        let mut values = base(i - i % 2);
+        values["query_s"] = json!(0.1 + 0.001 * i as f64);
+        values
+    };
+    let found = compare(&side("a", "p", still), &side("b", "p", still));
+    let duel = &found.duels[0];
+    let n_pairs = |metric: &str| {
+        let mut findings = duel.findings.iter();
+        findings.find(|f| f.metric == metric).unwrap().n_pairs
+    };
+    assert_eq!((n_pairs("length m"), n_pairs("query ms")), (12, 24));
+    assert!(duel.notes[0].starts_with("On 12 scenarios the seed changes nothing"));
+}
+
+#[test]
+fn times_of_other_machines_do_not_compare() {
+    let (a, mut b) = (side("a", "p", base), side("b", "p", other));
+    for record in &mut b.records {
+        record.origin.set("machine", "two");
+    }
+    let found = compare(&a, &b);
+    for metric in ["first path ms", "query ms", "memory MB"] {
+        assert_eq!(verdict(&found, metric), Verdict::NotComparable);
+    }
+    assert_eq!(verdict(&found, "length m"), Verdict::Worse);
+    assert!(found.duels[0].notes[0].contains("machines differ (one and two)"));
+}
+
+#[test]
+fn sides_that_have_nothing_in_common_are_refused() {
+    let a = side("a", "p", base);
+    // One planner each: those are compared, whatever they are called.
+    assert_eq!(compare(&a, &side("b", "q", base)).duels.len(), 1);
+    let mut two = side("b", "q", base);
+    two.records.extend(side("b", "r", base).records);
+    let told = |b: &Side| Comparison::new(&a, b, Scope::All).unwrap_err().to_string();
+    assert!(told(&two).contains("a has p; b has q, r"));
+    let mut moved = side("b", "p", base);
+    for record in &mut moved.records {
+        record.origin.set("map_hash", "n");
+    }
+    assert!(told(&moved).contains("the maps of the two sides are not the same (m and n)"));
+    for record in &mut moved.records {
+        record.origin.set("vehicle", "sedan");
+    }
+    assert!(told(&moved).contains("no run in common"));
+}
