@@ -5,9 +5,13 @@
 //! holds all rows and a [`report::Report`] of tables and figures, which is written as a page, as
 //! Markdown and as LaTeX.
 
+pub mod claims;
+mod correspondence;
+mod exhibit;
 mod experiment;
 mod lei2020;
 mod li2024;
+mod parallel;
 mod replanning;
 pub mod report;
 mod reproduction;
@@ -15,6 +19,8 @@ pub mod standing;
 pub mod statistics;
 pub mod stress;
 mod trial;
+mod trial_log;
+mod trials;
 mod wang2019;
 
 pub use experiment::{Ground, Scale, Setup, Variant};

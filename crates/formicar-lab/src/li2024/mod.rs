@@ -137,6 +137,8 @@ impl Plan {
         Ok(Reproduction {
             report: self.report(findings),
             csv: csv(&findings.drives)?,
+            courses_csv: String::new(),
+            ompl_logs: Vec::new(),
             n_runs: findings.drives.len(),
             facts: [
                 facts_of(std::slice::from_ref(&self.ground)),

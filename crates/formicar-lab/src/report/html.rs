@@ -1,8 +1,11 @@
 //! Reports as one page that needs nothing else.
 
 use super::keys::{Keys, NamedPart};
-use super::{Block, Report, Section, Table};
+use super::{Block, Field, Report, Section, Table, Verdict};
 use std::fmt::Write;
+
+/// Words longer than this are set in several lines.
+const PROSE_CHARS: usize = 34;
 
 const STYLE: &str = include_str!("page.css");
 
@@ -91,18 +94,23 @@ fn write_section(
                 let named = keys.name(table);
                 write_table(text, table, &named);
             }
-            Block::Figure(figure) => {
-                *n_figures += 1;
-                let caption = inline(&figure.caption);
-                let _ = writeln!(
-                    text,
-                    "<figure>\n{}<figcaption><b>Figure {n_figures}.</b> {caption}</figcaption>\n</figure>",
-                    figure.svg
-                );
-            }
+            drawn => write_figure(text, drawn, n_figures),
         }
     }
     text.push_str("</section>\n");
+}
+
+fn write_figure(text: &mut String, drawn: &Block, n_figures: &mut usize) {
+    let Some(figure) = drawn.figure() else {
+        return;
+    };
+    *n_figures += 1;
+    let caption = inline(&figure.caption);
+    let _ = writeln!(
+        text,
+        "<figure>\n{}<figcaption><b>Figure {n_figures}.</b> {caption}</figcaption>\n</figure>",
+        figure.svg
+    );
 }
 
 fn write_table(text: &mut String, table: &Table, named: &[Vec<Vec<NamedPart>>]) {
@@ -128,19 +136,36 @@ fn write_table(text: &mut String, table: &Table, named: &[Vec<Vec<NamedPart>>]) 
             let numbers: Vec<String> = parts.iter().map(number).collect();
             let numbers: Vec<&str> = numbers.iter().map(String::as_str).collect();
             let laid_out = field.laid_out(&numbers);
-            let inner = if parts.is_empty() {
-                inline(&laid_out)
-            } else {
-                laid_out
+            let inner = match field {
+                Field::Verdict(verdict) => verdict_mark(*verdict),
+                _ if parts.is_empty() => inline(&laid_out),
+                _ => laid_out,
             };
+            let class = class(field);
             let _ = match i {
-                0 => write!(text, "<th scope=\"row\">{inner}</th>"),
-                _ => write!(text, "<td>{inner}</td>"),
+                0 => write!(text, "<th scope=\"row\"{class}>{inner}</th>"),
+                _ => write!(text, "<td{class}>{inner}</td>"),
             };
         }
         text.push_str("</tr>\n");
     }
     text.push_str("</tbody></table></div>\n");
+}
+
+/// Words are set from the left, and long ones in several lines.
+fn class(field: &Field) -> &'static str {
+    match field {
+        Field::Words(words) if words.chars().count() > PROSE_CHARS => " class=\"prose\"",
+        Field::Words(_) | Field::Verdict(_) => " class=\"words\"",
+        _ => "",
+    }
+}
+
+fn verdict_mark(verdict: Verdict) -> String {
+    let (class, mark, name) = (verdict.class(), verdict.mark(), verdict.name());
+    format!(
+        "<span class=\"verdict {class}\"><span aria-hidden=\"true\">{mark}</span> {name}</span>"
+    )
 }
 
 /// A number with its name, for whoever looks for it.
@@ -196,7 +221,7 @@ fn escaped(words: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::{Field, Figure};
+    use crate::report::Figure;
 
     #[test]
     fn a_page_holds_everything_and_loads_nothing() {
@@ -223,7 +248,7 @@ mod tests {
         for part in [
             "<title>A &amp; B</title>",
             "<p class=\"caption\" id=\"about-t\">Of <code>x</code> &lt; y.</p>",
-            "<th scope=\"row\">&lt;a&gt;</th><td><data value=\"pTAAboveWhat\">2.0</data></td>",
+            "<th scope=\"row\" class=\"words\">&lt;a&gt;</th><td><data value=\"pTAAboveWhat\">2.0</data></td>",
             "<b>Figure 1.</b> A line.",
             "<dt>seed</dt><dd>0</dd>",
             "<pre>{&quot;n&quot;: 1}</pre>",
