@@ -66,7 +66,7 @@ impl<'a> Runs<'a> {
         };
         let pairs = self.trials(map, first).into_iter().filter_map(pair);
         Comparison {
-            name: format!("{map}, {first} - {other}"),
+            name: named(map, first, other),
             quantity: quantity.name.to_owned(),
             n_decimals: quantity.n_decimals,
             pairs: pairs.collect(),
@@ -115,6 +115,15 @@ impl<'a> Runs<'a> {
                 panel("time, ms", ScaleKind::Log, |m| m.ms.max(1e-3)),
             ],
         }
+    }
+}
+
+/// Who is compared with whom, and where; a variant of the first by what differs.
+fn named(map: &str, first: &str, other: &str) -> String {
+    let variant = other.strip_prefix(first);
+    match variant.and_then(|rest| rest.strip_prefix(", ")) {
+        Some(what) => format!("{map}, {first} - with {what}"),
+        None => format!("{map}, {first} - {other}"),
     }
 }
 

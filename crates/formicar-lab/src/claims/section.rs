@@ -15,18 +15,27 @@ const RULE: &str = "Each claim is tested on our maps, method against method, see
      half are. Runs without a value, because no path was found, have no pair.";
 
 impl Claims {
-    /// Verdicts, then the tests behind them, then their differences as pictures.
-    pub(crate) fn section(&self) -> Section {
-        let judged = self.judged();
-        let mut blocks = vec![
-            Block::Text(RULE.to_owned()),
-            Block::Table(verdicts(&judged)),
-            Block::Table(tests(&judged)),
-        ];
-        blocks.extend(plots(&judged).into_iter().map(Block::Paired));
+    /// The verdicts.
+    pub(crate) fn verdicts(&self) -> Section {
         Section {
             heading: "Claims and verdicts".to_owned(),
-            blocks,
+            blocks: vec![
+                Block::Table(verdicts(&self.judged())),
+                Block::Text(RULE.to_owned()),
+            ],
+        }
+    }
+
+    /// The tests behind the verdicts, and their differences as pictures.
+    pub(crate) fn tests(&self) -> Section {
+        let judged = self.judged();
+        let plots = plots(&judged).into_iter().map(Block::Paired);
+        Section {
+            heading: "Tests of the claims".to_owned(),
+            blocks: [Block::Table(tests(&judged))]
+                .into_iter()
+                .chain(plots)
+                .collect(),
         }
     }
 }
@@ -145,10 +154,11 @@ fn plots(judged: &[Judged]) -> Vec<PairedPlot> {
             });
             plots.push(PairedPlot {
                 caption: format!(
-                    "Claim {}, {}: differences seed by seed, first less other, sorted; below the \
-                     line at 0 filled, above it hollow.",
+                    "Claim {}, {}: differences in {} seed by seed, first less other, sorted; below \
+                     the line at 0 filled, above it hollow.",
                     i + 1,
-                    judged.claim.words.trim_end_matches('.')
+                    in_a_sentence(&judged.claim.words),
+                    same[0].comparison.quantity
                 ),
                 quantity: same[0].comparison.quantity.clone(),
                 panels: panels.collect(),
@@ -156,6 +166,17 @@ fn plots(judged: &[Judged]) -> Vec<PairedPlot> {
         }
     }
     plots
+}
+
+/// Words with a small first letter, but for names.
+fn in_a_sentence(words: &str) -> String {
+    let mut chars = words.chars();
+    let first = chars.next();
+    let is_name = words.chars().nth(1).is_some_and(char::is_uppercase);
+    match first {
+        Some(first) if !is_name => first.to_lowercase().chain(chars).collect(),
+        _ => words.to_owned(),
+    }
 }
 
 #[cfg(test)]

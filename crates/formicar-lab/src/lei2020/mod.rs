@@ -61,8 +61,9 @@ pub fn lei2020(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproduction
 }
 
 fn report(grounds: &[Ground], runs: Runs) -> Result<Report> {
+    let claims = claims::claims(runs);
     let mut sections = vec![
-        claims::claims(runs).section(),
+        claims.verdicts(),
         tables::table_1(runs),
         figures::layers(grounds)?,
         figures::pheromone(grounds)?,
@@ -75,6 +76,7 @@ fn report(grounds: &[Ground], runs: Runs) -> Result<Report> {
     for map in MAPS {
         sections.push(of_map(map.name, runs));
     }
+    sections.push(claims.tests());
     sections.push(parameters::section(&grounds[0])?);
     sections.push(correspondence::section(&PLACES));
     Ok(Report {

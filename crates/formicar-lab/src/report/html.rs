@@ -7,6 +7,9 @@ use std::fmt::Write;
 /// Words longer than this are set in several lines.
 const PROSE_CHARS: usize = 34;
 
+/// Pictures up to this width stand two in a row, pixels.
+const HALF_PX: f64 = 800.0;
+
 const STYLE: &str = include_str!("page.css");
 
 /// Something that is known about how results came about.
@@ -86,18 +89,22 @@ fn write_section(
         i + 1
     );
     for block in &section.blocks {
-        match block {
-            Block::Text(words) => {
-                let _ = writeln!(text, "<p>{}</p>", inline(words));
-            }
-            Block::Table(table) => {
-                let named = keys.name(table);
-                write_table(text, table, &named);
-            }
-            drawn => write_figure(text, drawn, n_figures),
-        }
+        write_block(text, block, (keys, n_figures));
     }
     text.push_str("</section>\n");
+}
+
+fn write_block(text: &mut String, block: &Block, (keys, n_figures): (&mut Keys, &mut usize)) {
+    match block {
+        Block::Text(words) => {
+            let _ = writeln!(text, "<p>{}</p>", inline(words));
+        }
+        Block::Table(table) => {
+            let named = keys.name(table);
+            write_table(text, table, &named);
+        }
+        drawn => write_figure(text, drawn, n_figures),
+    }
 }
 
 fn write_figure(text: &mut String, drawn: &Block, n_figures: &mut usize) {
@@ -108,9 +115,23 @@ fn write_figure(text: &mut String, drawn: &Block, n_figures: &mut usize) {
     let caption = inline(&figure.caption);
     let _ = writeln!(
         text,
-        "<figure>\n{}<figcaption><b>Figure {n_figures}.</b> {caption}</figcaption>\n</figure>",
+        "<figure{}>\n{}<figcaption><b>Figure {n_figures}.</b> {caption}</figcaption>\n</figure>",
+        side_by_side(&figure.svg),
         figure.svg
     );
+}
+
+/// Pictures that are narrow enough stand two in a row.
+fn side_by_side(svg: &str) -> &'static str {
+    let width = svg
+        .split_once(" width=\"")
+        .and_then(|(_, rest)| rest.split_once('"'));
+    let width_px = width.and_then(|(width, _)| width.parse::<f64>().ok());
+    if width_px.is_some_and(|width_px| width_px <= HALF_PX) {
+        " class=\"half\""
+    } else {
+        ""
+    }
 }
 
 fn write_table(text: &mut String, table: &Table, named: &[Vec<Vec<NamedPart>>]) {
@@ -126,8 +147,15 @@ fn write_table(text: &mut String, table: &Table, named: &[Vec<Vec<NamedPart>>]) 
         "<div class=\"table\"><table id=\"table-{key}\" aria-describedby=\"about-{key}\">"
     );
     text.push_str("<thead><tr>");
-    for name in &table.heading {
-        let _ = write!(text, "<th scope=\"col\">{}</th>", inline(name));
+    for (i, name) in table.heading.iter().enumerate() {
+        let fields = table.rows.iter().filter_map(|row| row.get(i));
+        let is_words = |field: &Field| matches!(field, Field::Words(_) | Field::Verdict(_));
+        let class = if { fields }.all(is_words) {
+            " class=\"words\""
+        } else {
+            ""
+        };
+        let _ = write!(text, "<th scope=\"col\"{class}>{}</th>", inline(name));
     }
     text.push_str("</tr></thead>\n<tbody>\n");
     for (row, named) in table.rows.iter().zip(named) {

@@ -14,16 +14,15 @@ use formicar::vehicle::Vehicle;
 const SPACING_M: f64 = 0.05;
 const MIN_PLACES: f64 = 200.0;
 
-/// Lines that differ in color and dash.
-const LOOKS: [(Color, Dash); 6] = [
-    (palette::REVERSE, Dash::Dashed),
-    (palette::GOAL, Dash::Dotted),
-    (palette::FORWARD, Dash::Solid),
-    (palette::START, Dash::Dashed),
-    (palette::WAYPOINTS, Dash::Dotted),
-    (palette::LIMIT, Dash::Solid),
+/// Lines that differ in color, dash and width, the last path's first.
+const LOOKS: [(Color, Dash, f64); 6] = [
+    (palette::FORWARD, Dash::Solid, 2.6),
+    (palette::REVERSE, Dash::Dashed, 3.2),
+    (palette::GOAL, Dash::Dotted, 2.6),
+    (palette::START, Dash::Dashed, 2.2),
+    (palette::WAYPOINTS, Dash::Solid, 1.6),
+    (palette::LIMIT, Dash::Dotted, 3.2),
 ];
-const WIDTHS_PX: [f64; 2] = [3.4, 2.4];
 
 /// A path with the name of who found it.
 #[derive(Clone, Debug)]
@@ -59,11 +58,11 @@ impl Overlay<'_> {
             None => Scene::new(self.map),
         };
         for (i, path) in self.paths.iter().enumerate() {
-            let (color, dash) = LOOKS[i % LOOKS.len()];
+            let (color, dash, width_px) = LOOKS[(self.paths.len() - 1 - i) % LOOKS.len()];
             let style = LineStyle {
                 label: path.name.clone(),
                 color,
-                width_px: WIDTHS_PX[i % WIDTHS_PX.len()],
+                width_px,
                 dash,
             };
             scene.polyline(&path.points, &style);

@@ -40,12 +40,14 @@ pub fn wang2019(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproductio
     tell("adjacency timing");
     let timings = adjacency::measure(setup.scale)?;
     let all = Runs(&runs);
-    let mut sections = vec![claims::claims(all, &timings).section()];
+    let claims = claims::claims(all, &timings);
+    let mut sections = vec![claims.verdicts()];
     for ((map, figure), ground) in MAPS.iter().zip(&grounds) {
         sections.push(of_map((map, figure), ground, all)?);
     }
     sections.push(adjacency::section(&timings));
     sections.push(steps::section());
+    sections.push(claims.tests());
     sections.push(parameters::section()?);
     sections.push(correspondence::section(&PLACES));
     let report = Report {

@@ -72,7 +72,7 @@ impl Scale {
     pub(super) fn ticks(&self) -> Vec<Tick> {
         let length_px = (self.px[1] - self.px[0]).abs();
         let values = match self.kind {
-            ScaleKind::Log if self.high / self.low >= 8.0 => self.decades(),
+            ScaleKind::Log if self.high / self.low >= 8.0 => self.decades(length_px / 56.0),
             _ => self.multiples(length_px / 62.0),
         };
         let tick = |(value, label)| Tick {
@@ -102,17 +102,21 @@ impl Scale {
         (0..=n).map(at).collect()
     }
 
-    fn decades(&self) -> Vec<(f64, String)> {
+    /// Powers of ten, with 2 and 5 between them where there is room, or only some of them.
+    fn decades(&self, n_most: f64) -> Vec<(f64, String)> {
         let (first, last) = (
             self.low.log10().floor() as i32,
             self.high.log10().ceil() as i32,
         );
-        let factors: &[f64] = if last - first <= 3 {
+        let n_decades = (self.high / self.low).log10();
+        let factors: &[f64] = if 3.0 * n_decades <= n_most {
             &[1.0, 2.0, 5.0]
         } else {
             &[1.0]
         };
-        let values = (first..=last).flat_map(|n| factors.iter().map(move |f| f * 10_f64.powi(n)));
+        let step = (n_decades / n_most).ceil().max(1.0) as usize;
+        let powers = (first..=last).step_by(step);
+        let values = powers.flat_map(|n| factors.iter().map(move |f| f * 10_f64.powi(n)));
         let inside = values.filter(|v| (self.low..=self.high).contains(v));
         let n_decimals = |v: f64| (-v.log10().floor()).clamp(0.0, 9.0) as usize;
         inside.map(|v| (v, label(v, n_decimals(v)))).collect()

@@ -5,7 +5,7 @@ use super::canvas::{Anchor, Canvas, INK, Pen, TEXT_PX, look, width_px};
 use crate::statistics::quartiles;
 use serde::Serialize;
 
-const WIDTH_PX: f64 = 900.0;
+const WIDTH_PX: f64 = 1000.0;
 const HEIGHT_PX: f64 = 220.0;
 const LEFT_PX: f64 = 66.0;
 const GAP_PX: f64 = 34.0;

@@ -1,11 +1,11 @@
 //! How values are spread: box plots with every value.
 
 use super::axis::{Scale, ScaleKind};
-use super::canvas::{Anchor, Canvas, FIRST, INK, MUTED, Pen, RULE, SECOND, TEXT_PX, width_px};
+use super::canvas::{Anchor, Canvas, FIRST, INK, MUTED, Pen, SECOND, TEXT_PX, width_px};
 use crate::statistics::quartiles;
 use serde::Serialize;
 
-const WIDTH_PX: f64 = 900.0;
+const WIDTH_PX: f64 = 1000.0;
 const ROW_PX: f64 = 27.0;
 const HALF_BOX_PX: f64 = 8.0;
 /// Whiskers reach the farthest value within so many box lengths of the box (Tukey 1977).
@@ -109,7 +109,7 @@ fn draw(canvas: &mut Canvas, scale: &Scale, y: f64, values: &[f64]) {
         // Dots lie in five lines so that equal values are seen to be many.
         let off_px = 2.6 * ((i * 2 % 5) as f64 - 2.0);
         let place = [scale.px(value), y + off_px];
-        canvas.dot(place, 2.0, (MUTED, Pen::new(RULE, 0.4)));
+        canvas.dot(place, 1.9, (INK, Pen::new("none", 0.0)));
     }
     let x = scale.px(median);
     let pen = Pen::new(INK, 2.6);

@@ -5,10 +5,9 @@ use super::canvas::{Anchor, Canvas, FIRST, INK, MUTED, Pen, SECOND, TEXT_PX};
 use crate::statistics::quantile;
 use serde::Serialize;
 
-const WIDTH_PX: f64 = 900.0;
 const N_COLUMNS: usize = 3;
-const PLOT_PX: [f64; 2] = [216.0, 130.0];
-const MARGIN_PX: [f64; 4] = [66.0, 40.0, 12.0, 24.0];
+const PLOT_PX: [f64; 2] = [310.0, 120.0];
+const MARGIN_PX: [f64; 4] = [52.0, 42.0, 14.0, 26.0];
 
 /// The differences of one pair of groups.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -40,15 +39,17 @@ impl PairedPlot {
         for (i, panel) in self.panels.iter().enumerate() {
             let (column, row) = (i % N_COLUMNS, i / N_COLUMNS);
             let corner = [column as f64 * cell[0] + left, row as f64 * cell[1] + top];
-            draw(&mut canvas, corner, panel, &self.quantity);
+            draw(&mut canvas, corner, panel);
         }
         let n_rows = self.panels.len().div_ceil(N_COLUMNS).max(1);
+        let n_columns = self.panels.len().clamp(1, N_COLUMNS);
         let title = format!("Paired differences: {}", self.quantity);
-        canvas.document([WIDTH_PX, n_rows as f64 * cell[1] + 6.0], &title)
+        let width_px = n_columns as f64 * cell[0];
+        canvas.document([width_px, n_rows as f64 * cell[1] + 6.0], &title)
     }
 }
 
-fn draw(canvas: &mut Canvas, [left, top]: [f64; 2], panel: &PairedPanel, quantity: &str) {
+fn draw(canvas: &mut Canvas, [left, top]: [f64; 2], panel: &PairedPanel) {
     let (right, bottom) = (left + PLOT_PX[0], top + PLOT_PX[1]);
     let mut sorted: Vec<f64> = panel.differences.clone();
     sorted.retain(|d| d.is_finite());
@@ -66,7 +67,7 @@ fn draw(canvas: &mut Canvas, [left, top]: [f64; 2], panel: &PairedPanel, quantit
         )
     });
     canvas.text([left, top - 8.0], &words, (Anchor::Start, MUTED));
-    scale.draw_left(canvas, [left, right], quantity);
+    scale.draw_left(canvas, [left, right], "");
     let zero = scale.px(0.0);
     canvas.line([left, zero], [right, zero], Pen::new(INK, 1.3));
     let step = PLOT_PX[0] / (sorted.len() as f64 + 1.0);
