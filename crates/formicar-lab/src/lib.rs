@@ -12,6 +12,7 @@ mod experiment;
 mod lei2020;
 mod li2024;
 mod parallel;
+mod parameters;
 mod replanning;
 pub mod report;
 mod reproduction;

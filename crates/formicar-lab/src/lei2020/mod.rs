@@ -2,16 +2,17 @@
 
 mod claims;
 mod figures;
-mod parameters;
 mod tables;
 mod variants;
 
 use crate::correspondence::{self, NOT_MADE, Place};
-use crate::experiment::{Ground, Setup, run_all};
+use crate::experiment::{Ground, Setup, Variant, run_all};
+use crate::parameters;
 use crate::report::{Block, Report, Section};
 use crate::reproduction::Reproduction;
 use crate::trials::Runs;
 use anyhow::Result;
+use formicar::planner::PlannerName;
 use variants::{CONVENTIONAL, ELITE, IMPROVED, variants};
 
 /// A map with what the paper's Table 1 gives for one of the same size of its own: conventional,
@@ -77,7 +78,10 @@ fn report(grounds: &[Ground], runs: Runs) -> Result<Report> {
         sections.push(of_map(map.name, runs));
     }
     sections.push(claims.tests());
-    sections.push(parameters::section(&grounds[0])?);
+    sections.push(parameters::section(
+        parameters::LEI2020,
+        &Variant::of(PlannerName::Lei2020),
+    )?);
     sections.push(correspondence::section(&PLACES));
     Ok(Report {
         name: "lei2020".to_owned(),

@@ -11,7 +11,6 @@ mod group;
 mod methods;
 mod native;
 mod paper;
-mod parameters;
 mod pictures;
 mod scaling;
 mod tables;
@@ -20,6 +19,7 @@ mod turns;
 use crate::correspondence::{self, NOT_MADE, Place};
 use crate::experiment::{Ground, Scale, Setup, Variant};
 use crate::parallel;
+use crate::parameters;
 use crate::report::{Block, Fact, Figure, Report, Section};
 use crate::reproduction::{Reproduction, at_a_time, configs_of, csv, facts_of, seeds};
 use ablation::ABLATION;
@@ -200,7 +200,10 @@ impl Plan {
         sections.extend(self.of_proposed(findings));
         sections.push(self.of_hood(findings));
         sections.push(claims.tests());
-        sections.extend(parameters::section(&self.ablation)?);
+        if let Some(subject) = scaling::subject(&self.methods) {
+            let own = Variant::of(subject.planner);
+            sections.push(parameters::section(parameters::LI2024, &own)?);
+        }
         sections.push(correspondence::section(&PLACES));
         Ok(Report {
             name: "li2024".to_owned(),

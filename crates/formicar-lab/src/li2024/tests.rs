@@ -87,8 +87,8 @@ fn tables_and_figures_come_from_the_rows() {
             _ => None,
         })
         .collect();
-    // A path of each method, and the courses of both colonies.
-    assert_eq!(svgs.len(), 5);
+    // The map, all paths, a path of each method, and the courses of both colonies.
+    assert_eq!(svgs.len(), 7);
     assert!(svgs.iter().all(|figure| figure.svg.starts_with("<svg ")));
     assert_eq!(reproduction.configs.len(), 4 + 2);
 }

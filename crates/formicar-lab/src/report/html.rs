@@ -1,11 +1,8 @@
 //! Reports as one page that needs nothing else.
 
 use super::keys::{Keys, NamedPart};
-use super::{Block, Field, Report, Section, Table, Verdict};
+use super::{Block, Field, PROSE_CHARS, Report, Section, Table, Verdict};
 use std::fmt::Write;
-
-/// Words longer than this are set in several lines.
-const PROSE_CHARS: usize = 34;
 
 /// Pictures up to this width stand two in a row, pixels.
 const HALF_PX: f64 = 800.0;

@@ -32,6 +32,9 @@ pub use provenance::config_hash;
 pub use table::{Row, Table};
 pub use verdict::Verdict;
 
+/// Words longer than this are set in several lines.
+const PROSE_CHARS: usize = 34;
+
 /// A document; words between backticks are set as code.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {

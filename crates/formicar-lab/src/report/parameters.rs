@@ -77,19 +77,6 @@ impl ParameterSheet {
         }
     }
 
-    /// Known keys that a configuration does not have: slips.
-    #[cfg(test)]
-    pub(crate) fn unknown<'a>(config: &Value, known: &[Known<'a>]) -> Vec<&'a str> {
-        let mut leaves = Vec::new();
-        collect(config, String::new(), &mut leaves);
-        let is_missing = |part: &&str| !leaves.iter().any(|(key, _)| is_under(key, part));
-        known
-            .iter()
-            .map(|known| known.0)
-            .filter(is_missing)
-            .collect()
-    }
-
     /// The sheet as a table.
     pub fn table(&self, key: &str) -> Table {
         let caption = "Every parameter of the configuration: stated by the paper, read from what \

@@ -2,12 +2,12 @@
 
 mod adjacency;
 mod claims;
-mod parameters;
 mod steps;
 
 use crate::correspondence::{self, NOT_MADE, Place};
 use crate::exhibit::{Exhibit, Line, overlay};
 use crate::experiment::{Ground, Setup, Variant, run_all};
+use crate::parameters;
 use crate::report::{Block, Field, Report, Section, Table};
 use crate::reproduction::Reproduction;
 use crate::statistics::{quantile, quartiles};
@@ -48,7 +48,10 @@ pub fn wang2019(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproductio
     sections.push(adjacency::section(&timings));
     sections.push(steps::section());
     sections.push(claims.tests());
-    sections.push(parameters::section()?);
+    sections.push(parameters::section(
+        parameters::WANG2019,
+        &Variant::of(PlannerName::Wang2019),
+    )?);
     sections.push(correspondence::section(&PLACES));
     let report = Report {
         name: "wang2019".to_owned(),
