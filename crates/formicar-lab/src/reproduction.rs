@@ -1,9 +1,7 @@
 //! What an experiment hands over: rows, a report, and how they came about.
 
 use crate::experiment::{Ground, Setup, Variant};
-use crate::report::{
-    Fact, OmplLog, Page, Report, config_hash, json, latex, markdown, numbers_csv, page,
-};
+use crate::report::{Fact, OmplLog, Page, Report, json, latex, markdown, numbers_csv, page};
 use crate::trial::{Run, Trial};
 use crate::trial_log::ompl_logs;
 use anyhow::Result;
@@ -65,11 +63,7 @@ impl Reproduction {
     /// # Errors
     /// None that is expected: all is written to memory.
     pub fn files(&self, machine: &[Fact]) -> Result<Vec<(String, String)>> {
-        let hashes = self.configs.iter().map(|config| {
-            let name = format!("Configuration `{}`", config.name);
-            Fact::new(&name, format!("hash `{}`", config_hash(&config.value)))
-        });
-        let facts = [machine, &self.facts, &hashes.collect::<Vec<_>>()].concat();
+        let facts = [machine, &self.facts].concat();
         let whole = Page {
             report: &self.report,
             facts: &facts,

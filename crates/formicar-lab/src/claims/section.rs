@@ -48,7 +48,8 @@ fn verdicts(judged: &[Judged]) -> Table {
         ],
     )
     .captioned(
-        "The paper's claims. `ours` gives medians, the paper's method before the other; `for`, \
+        "The paper's claims. `ours` gives medians, the paper's method before the other, in the \
+         order in which the tests of the claim are listed further below, or counts of runs; `for`, \
          `against` and `open` count tests.",
     );
     for (i, judged) in judged.iter().enumerate() {
@@ -57,13 +58,13 @@ fn verdicts(judged: &[Judged]) -> Table {
         table.row(vec![
             Field::Words(format!("{}", i + 1)),
             Field::words(&claim.words),
-            Field::words(&claim.place),
+            Field::Verdict(judged.verdict),
             Field::words(&claim.paper),
             Field::Words(ours(judged)),
             Field::Number(Some(n_for as f64), 0),
             Field::Number(Some(n_against as f64), 0),
             Field::Number(Some(n_open as f64), 0),
-            Field::Verdict(judged.verdict),
+            Field::words(&claim.place),
         ]);
     }
     table
@@ -73,17 +74,15 @@ fn verdicts(judged: &[Judged]) -> Table {
 fn ours(judged: &Judged) -> String {
     let tests = judged.tests.iter().map(|test| {
         let n = test.comparison.n_decimals;
-        let medians = test
-            .medians
+        test.medians
             .map_or("no pairs".to_owned(), |[first, other]| {
                 format!("{first:.n$} : {other:.n$}")
-            });
-        format!("{}: {medians}", test.comparison.name)
+            })
     });
     let counts = judged
         .counts
         .iter()
-        .map(|(count, _)| format!("{}: {}/{}", count.name, count.n, count.of));
+        .map(|(count, _)| format!("{}/{}", count.n, count.of));
     tests.chain(counts).collect::<Vec<_>>().join("; ")
 }
 
@@ -207,22 +206,16 @@ mod tests {
             ),
             Claim::counted("arrives", ("sec. 6", "-"), vec![count]),
         ]);
-        let section = claims.section();
-        let [
-            _,
-            Block::Table(verdicts),
-            Block::Table(tests),
-            Block::Paired(plot),
-        ] = &section.blocks[..]
-        else {
-            panic!("{section:?}")
+        let (verdicts, tests) = (claims.verdicts(), claims.tests());
+        let Block::Table(verdicts) = &verdicts.blocks[0] else {
+            panic!("{verdicts:?}")
         };
-        assert_eq!(
-            verdicts.rows[0][4],
-            Field::words("a: 5.0 : 7.5; b: 5.0 : 7.5")
-        );
-        assert_eq!(verdicts.rows[0][8], Field::Verdict(Verdict::Holds));
-        assert_eq!(verdicts.rows[1][4], Field::words("map: 31/31"));
+        let [Block::Table(tests), Block::Paired(plot)] = &tests.blocks[..] else {
+            panic!("{tests:?}")
+        };
+        assert_eq!(verdicts.rows[0][2], Field::Verdict(Verdict::Holds));
+        assert_eq!(verdicts.rows[0][4], Field::words("5.0 : 7.5; 5.0 : 7.5"));
+        assert_eq!(verdicts.rows[1][4], Field::words("31/31"));
         assert_eq!(tests.rows.len(), 2);
         assert_eq!(tests.rows[1][0], Field::words("1: b"));
         assert_eq!(plot.panels.len(), 2);

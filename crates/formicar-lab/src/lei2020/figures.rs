@@ -238,10 +238,11 @@ pub(super) fn paths(map: &Map, ground: &Ground) -> Result<Section> {
     );
     let cells = overlay(ground, (&exhibits, Line::Cells), &caption);
     let last = &exhibits[exhibits.len() - 1];
-    let caption = format!(
-        "Figure {} on `{}`, seed 0: the path of the improved colony after 2-turning.",
-        map.figure, map.name
-    );
+    let what = match last.outcome.judged() {
+        Some(_) => "the path of the improved colony after its corners are rounded",
+        None => "the way of the improved colony, of which a corner leaves no room to be rounded",
+    };
+    let caption = format!("Figure {} on `{}`, seed 0: {what}.", map.figure, map.name);
     let smooth = overlay(ground, (std::slice::from_ref(last), Line::Curve), &caption);
     let strips = strips_of(ground, last);
     let figures = [cells, smooth].into_iter().chain(strips);

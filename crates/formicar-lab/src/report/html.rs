@@ -1,6 +1,7 @@
 //! Reports as one page that needs nothing else.
 
 use super::keys::{Keys, NamedPart};
+use super::provenance::config_hash;
 use super::{Block, Field, PROSE_CHARS, Report, Section, Table, Verdict};
 use std::fmt::Write;
 
@@ -212,7 +213,8 @@ fn provenance(text: &mut String, page: &Page) {
         let (name, value) = (inline(&config.name), escaped(&config.value));
         let _ = writeln!(
             text,
-            "<details><summary>{name}</summary><pre>{value}</pre></details>"
+            "<details><summary>{name} <code class=\"hash\">{}</code></summary><pre>{value}</pre></details>",
+            config_hash(&config.value)
         );
     }
     text.push_str("</section>\n");

@@ -1,5 +1,6 @@
 //! Reports as JSON: everything that stands on the page, pictures as the values that they show.
 
+use super::provenance::config_hash;
 use super::{Block, Fact, Field, Page, Section, Table};
 use serde_json::{Map, Value, json};
 
@@ -14,6 +15,7 @@ pub fn json(page: &Page) -> String {
         "sections": report.sections.iter().map(section).collect::<Vec<_>>(),
         "provenance": facts(page.facts),
         "configs": facts(page.configs),
+        "config_hashes": hashes(page.configs),
     });
     format!("{document:#}\n")
 }
@@ -21,6 +23,12 @@ pub fn json(page: &Page) -> String {
 fn facts(facts: &[Fact]) -> Value {
     let value = |fact: &Fact| serde_json::from_str(&fact.value).unwrap_or(json!(fact.value));
     let pairs = facts.iter().map(|fact| (fact.name.clone(), value(fact)));
+    Value::Object(pairs.collect::<Map<_, _>>())
+}
+
+fn hashes(configs: &[Fact]) -> Value {
+    let pairs = configs.iter();
+    let pairs = pairs.map(|config| (config.name.clone(), json!(config_hash(&config.value))));
     Value::Object(pairs.collect::<Map<_, _>>())
 }
 
@@ -102,6 +110,9 @@ mod tests {
         assert_eq!(blocks[0]["rows"], json!([["a", 0.125], ["b", null]]));
         assert_eq!(blocks[1]["plot"]["groups"][0]["values"], json!([0.125]));
         assert_eq!(value["configs"]["aco"]["n"], json!(1));
+        let hash = value["config_hashes"]["aco"].as_str().unwrap();
+        assert_eq!(hash, config_hash("{\"n\": 1}"));
+        assert_eq!(hash.len(), 32);
         assert_eq!(value["provenance"]["Cores"], json!(2));
     }
 }
