@@ -31,7 +31,7 @@ const EARLY: Quantity = Quantity {
     of: |trial| trial.early_length_cells,
 };
 const CONVERGED: Quantity = Quantity {
-    name: "iterations to within 1 %",
+    name: "iterations to within 1 % of its best",
     n_decimals: 0,
     of: |trial| Some(f64::from(trial.n_to_1_percent?)),
 };

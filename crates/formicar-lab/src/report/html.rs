@@ -2,10 +2,10 @@
 
 use super::keys::{Keys, NamedPart};
 use super::provenance::config_hash;
-use super::{Block, Field, PROSE_CHARS, Report, Section, Table, Verdict};
+use super::{Block, Field, Figure, PROSE_CHARS, Report, Section, Table, Verdict};
 use std::fmt::Write;
 
-/// Pictures up to this width stand two in a row, pixels.
+/// Pictures up to this width stand two in a row where two follow each other, pixels.
 const HALF_PX: f64 = 800.0;
 
 const STYLE: &str = include_str!("page.css");
@@ -86,50 +86,52 @@ fn write_section(
         "<section id=\"section-{}\">\n<h2>{heading}</h2>",
         i + 1
     );
-    for block in &section.blocks {
-        write_block(text, block, (keys, n_figures));
+    let figures: Vec<Option<Figure>> = section.blocks.iter().map(Block::figure).collect();
+    let is_narrow: Vec<bool> = figures.iter().map(is_narrow).collect();
+    for (i, (block, figure)) in section.blocks.iter().zip(&figures).enumerate() {
+        let is_beside = |j: Option<usize>| j.and_then(|j| is_narrow.get(j)) == Some(&true);
+        let has_neighbor = is_beside(i.checked_sub(1)) || is_beside(Some(i + 1));
+        let class = if is_narrow[i] && has_neighbor {
+            " class=\"half\""
+        } else {
+            ""
+        };
+        match (block, figure) {
+            (Block::Table(table), _) => {
+                let named = keys.name(table);
+                write_table(text, table, &named);
+            }
+            (Block::Text(words), _) => {
+                let _ = writeln!(text, "<p>{}</p>", inline(words));
+            }
+            (_, figure) => {
+                *n_figures += usize::from(figure.is_some());
+                write_figure(text, figure.as_ref(), (*n_figures, class));
+            }
+        }
     }
     text.push_str("</section>\n");
 }
 
-fn write_block(text: &mut String, block: &Block, (keys, n_figures): (&mut Keys, &mut usize)) {
-    match block {
-        Block::Text(words) => {
-            let _ = writeln!(text, "<p>{}</p>", inline(words));
-        }
-        Block::Table(table) => {
-            let named = keys.name(table);
-            write_table(text, table, &named);
-        }
-        drawn => write_figure(text, drawn, n_figures),
-    }
-}
-
-fn write_figure(text: &mut String, drawn: &Block, n_figures: &mut usize) {
-    let Some(figure) = drawn.figure() else {
+fn write_figure(text: &mut String, figure: Option<&Figure>, (number, class): (usize, &str)) {
+    let Some(figure) = figure else {
         return;
     };
-    *n_figures += 1;
     let caption = inline(&figure.caption);
     let _ = writeln!(
         text,
-        "<figure{}>\n{}<figcaption><b>Figure {n_figures}.</b> {caption}</figcaption>\n</figure>",
-        side_by_side(&figure.svg),
+        "<figure{class}>\n{}<figcaption><b>Figure {number}.</b> {caption}</figcaption>\n</figure>",
         figure.svg
     );
 }
 
-/// Pictures that are narrow enough stand two in a row.
-fn side_by_side(svg: &str) -> &'static str {
-    let width = svg
-        .split_once(" width=\"")
-        .and_then(|(_, rest)| rest.split_once('"'));
+/// Whether a picture is narrow enough to stand beside another such.
+fn is_narrow(figure: &Option<Figure>) -> bool {
+    let svg = figure.as_ref().map_or("", |figure| figure.svg.as_str());
+    let width = svg.split_once(" width=\"");
+    let width = width.and_then(|(_, rest)| rest.split_once('"'));
     let width_px = width.and_then(|(width, _)| width.parse::<f64>().ok());
-    if width_px.is_some_and(|width_px| width_px <= HALF_PX) {
-        " class=\"half\""
-    } else {
-        ""
-    }
+    width_px.is_some_and(|width_px| width_px <= HALF_PX)
 }
 
 fn write_table(text: &mut String, table: &Table, named: &[Vec<Vec<NamedPart>>]) {
@@ -248,7 +250,6 @@ fn escaped(words: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::Figure;
 
     #[test]
     fn a_page_holds_everything_and_loads_nothing() {

@@ -16,7 +16,7 @@ const SQUEEZES: Quantity = Quantity {
     of: |trial| Some(trial.n_squeezes? as f64),
 };
 const CONVERGED: Quantity = Quantity {
-    name: "iterations to within 1 %",
+    name: "iterations to within 1 % of its best",
     n_decimals: 0,
     of: |trial| Some(f64::from(trial.n_to_1_percent?)),
 };
