@@ -16,20 +16,17 @@ pub(crate) fn map<T: Send>(
     }
     let next = AtomicUsize::new(0);
     let slots: Vec<Mutex<Option<Result<T>>>> = (0..n).map(|_| Mutex::new(None)).collect();
+    let work_off = || {
+        while let Some(slot) = take(&next, &slots) {
+            let done = work(slot.0);
+            if let Ok(mut place) = slot.1.lock() {
+                *place = Some(done);
+            }
+        }
+    };
     std::thread::scope(|scope| {
         for _ in 0..n_jobs.min(n) {
-            scope.spawn(|| {
-                loop {
-                    let i = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(slot) = slots.get(i) else {
-                        return;
-                    };
-                    let done = work(i);
-                    if let Ok(mut slot) = slot.lock() {
-                        *slot = Some(done);
-                    }
-                }
-            });
+            scope.spawn(work_off);
         }
     });
     let done = slots.into_iter().map(|slot| {
@@ -37,6 +34,12 @@ pub(crate) fn map<T: Send>(
         slot.unwrap_or_else(|| Err(anyhow::anyhow!("a thread ended before its work")))
     });
     done.collect()
+}
+
+/// The next piece that nobody has taken, and its number.
+fn take<'a, T>(next: &AtomicUsize, slots: &'a [T]) -> Option<(usize, &'a T)> {
+    let i = next.fetch_add(1, Ordering::Relaxed);
+    Some((i, slots.get(i)?))
 }
 
 #[cfg(test)]

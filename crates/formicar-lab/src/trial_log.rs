@@ -1,10 +1,11 @@
 //! Runs as logs of OMPL.
 
 use crate::report::{OmplLog, OmplPlanner, OmplRun, Property, PropertyKind};
-use crate::trial::{Run, Trial};
+use crate::trial::Run;
+use crate::trials::Measure;
 
 /// A property of a run and its value; OMPL's own names where it has one.
-const PROPERTIES: [(&str, PropertyKind, fn(&Trial) -> Option<f64>); 8] = [
+const PROPERTIES: [(&str, PropertyKind, Measure); 8] = [
     ("solved", PropertyKind::Boolean, |trial| {
         Some(f64::from(u8::from(trial.certified)))
     }),

@@ -12,7 +12,7 @@ use anyhow::{Context, Result};
 use formicar::colony::deposit::{AllAnts, Deposit};
 use formicar::colony::evaporation::{Constant, Evaporation, PoissonEvaporation};
 use formicar::colony::initial::{InitialPheromone, LineGradient, PheromoneUnit};
-use formicar::geometry::Point2;
+use formicar::geometry::{Point2, Pose2};
 use formicar::planner::PlannerName;
 use formicar::render::{
     Axis, CellStyle, Chart, Dash, LineStyle, Picture, PoseMark, Scene, Series, Side, palette,
@@ -109,7 +109,7 @@ fn gradient(ground: &Ground) -> Result<Block> {
     if let Some(run) = &exhibit.outcome.stages().colony {
         scene.heat_map(&run.pheromone, "pheromone, units");
     }
-    let ends = [ground.request.start, ground.request.goal].map(|pose| pose.position());
+    let ends = [ground.request.start, ground.request.goal].map(Pose2::position);
     let style = LineStyle {
         label: "start to goal".to_owned(),
         color: palette::REVERSE,

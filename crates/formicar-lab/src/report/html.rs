@@ -87,7 +87,10 @@ fn write_section(
         i + 1
     );
     let figures: Vec<Option<Figure>> = section.blocks.iter().map(Block::figure).collect();
-    let is_narrow: Vec<bool> = figures.iter().map(is_narrow).collect();
+    let is_narrow: Vec<bool> = figures
+        .iter()
+        .map(|figure| is_narrow(figure.as_ref()))
+        .collect();
     for (i, (block, figure)) in section.blocks.iter().zip(&figures).enumerate() {
         let is_beside = |j: Option<usize>| j.and_then(|j| is_narrow.get(j)) == Some(&true);
         let has_neighbor = is_beside(i.checked_sub(1)) || is_beside(Some(i + 1));
@@ -126,8 +129,8 @@ fn write_figure(text: &mut String, figure: Option<&Figure>, (number, class): (us
 }
 
 /// Whether a picture is narrow enough to stand beside another such.
-fn is_narrow(figure: &Option<Figure>) -> bool {
-    let svg = figure.as_ref().map_or("", |figure| figure.svg.as_str());
+fn is_narrow(figure: Option<&Figure>) -> bool {
+    let svg = figure.map_or("", |figure| figure.svg.as_str());
     let width = svg.split_once(" width=\"");
     let width = width.and_then(|(_, rest)| rest.split_once('"'));
     let width_px = width.and_then(|(width, _)| width.parse::<f64>().ok());

@@ -48,7 +48,7 @@ impl Course {
 }
 
 fn places([first, last]: [f64; 2], scale: ScaleKind) -> Vec<f64> {
-    if !(first <= last) {
+    if !first.is_finite() || !last.is_finite() {
         return Vec::new();
     }
     let is_log = scale == ScaleKind::Log && first > 0.0;
