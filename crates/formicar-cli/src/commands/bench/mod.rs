@@ -18,6 +18,7 @@ mod variant;
 
 pub(crate) use args::BenchArgs;
 pub(crate) use child::run_one;
+pub(super) use place::ground_args;
 
 use super::machine;
 use crate::failure::{Ending, Failure};
