@@ -44,7 +44,7 @@ fn verdicts(judged: &[Judged]) -> Table {
     let mut table = Table::new(
         "verdicts",
         &[
-            "no.", "claim", "where", "paper", "ours", "for", "against", "open", "verdict",
+            "no.", "claim", "verdict", "paper", "ours", "for", "against", "open", "where",
         ],
     )
     .captioned(
@@ -213,6 +213,7 @@ mod tests {
         let [Block::Table(tests), Block::Paired(plot)] = &tests.blocks[..] else {
             panic!("{tests:?}")
         };
+        assert_eq!(verdicts.heading[2], "verdict");
         assert_eq!(verdicts.rows[0][2], Field::Verdict(Verdict::Holds));
         assert_eq!(verdicts.rows[0][4], Field::words("5.0 : 7.5; 5.0 : 7.5"));
         assert_eq!(verdicts.rows[1][4], Field::words("31/31"));
