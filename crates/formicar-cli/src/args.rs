@@ -1,7 +1,7 @@
 //! Commands and flags.
 
 use crate::commands::{
-    BenchArgs, CompareArgs, MapArgs, ReportArgs, ReproduceArgs, StressArgs, TrackArgs,
+    BenchArgs, CompareArgs, MapArgs, ReportArgs, ReproduceArgs, StressArgs, TrackArgs, TuneArgs,
 };
 use crate::values;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
@@ -43,6 +43,8 @@ pub(crate) enum Command {
     Reproduce(ReproduceArgs),
     /// Put a planner to the test on random scenarios; exit code 1 where anything is violated.
     Stress(StressArgs),
+    /// Look for better parameters of a planner on scenarios; try them on others.
+    Tune(Box<TuneArgs>),
     /// Describe, convert and generate maps; measure the way between two places.
     Map(MapArgs),
     /// List planners, built-in vehicles and maps, or the scenarios of a file.

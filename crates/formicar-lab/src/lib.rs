@@ -17,6 +17,7 @@ pub mod standing;
 pub mod statistics;
 pub mod stress;
 mod trial;
+pub mod tuning;
 mod wang2019;
 
 pub use experiment::{Ground, Scale, Setup, Variant};

@@ -5,12 +5,12 @@ mod support;
 use divan::{Bencher, black_box};
 use formicar::collision::ObstacleMap;
 use formicar::geometry::Pose2;
-use formicar::map::{Cell, CellRegion, FREE, GridFrame, OCCUPIED, OccupancyGrid};
+use formicar::map::{Cell, CellRegion, FREE, OCCUPIED, OccupancyGrid};
 use formicar::numeric::Seed;
 use formicar::planner::{Planner, PlannerConfig};
 use formicar::scenario::Request;
 use formicar::vehicle::Vehicle;
-use support::town;
+use support::town_map;
 
 /// Grid sizes.
 const SIZES: [(usize, usize); 2] = [(800, 500), (2000, 2000)];
@@ -19,15 +19,6 @@ const SIDE: usize = 20;
 
 fn main() {
     divan::main();
-}
-
-fn map(n_cols: usize, n_rows: usize) -> OccupancyGrid {
-    let frame = GridFrame::new(n_cols, n_rows, 0.2, Pose2::default()).expect("a frame");
-    let mut map = OccupancyGrid::free(frame);
-    for cell in town(n_cols, n_rows).iter() {
-        map.set(cell, OCCUPIED);
-    }
-    map
 }
 
 fn region(n_cols: usize, n_rows: usize) -> CellRegion {
@@ -63,14 +54,14 @@ fn values(turn: &mut bool) -> Vec<i8> {
 
 #[divan::bench(args = SIZES)]
 fn update_map(bencher: Bencher, (n_cols, n_rows): (usize, usize)) {
-    let (mut planner, _) = warm(&map(n_cols, n_rows));
+    let (mut planner, _) = warm(&town_map(n_cols, n_rows));
     let (region, mut turn) = (region(n_cols, n_rows), false);
     bencher.bench_local(|| planner.update_map(region, &values(&mut turn)));
 }
 
 #[divan::bench(args = SIZES)]
 fn update_map_and_short_query(bencher: Bencher, (n_cols, n_rows): (usize, usize)) {
-    let (mut planner, request) = warm(&map(n_cols, n_rows));
+    let (mut planner, request) = warm(&town_map(n_cols, n_rows));
     let (region, mut turn) = (region(n_cols, n_rows), false);
     bencher.bench_local(|| {
         let _ = planner.update_map(region, &values(&mut turn));
@@ -80,18 +71,18 @@ fn update_map_and_short_query(bencher: Bencher, (n_cols, n_rows): (usize, usize)
 
 #[divan::bench(args = SIZES)]
 fn new_planner_and_short_query(bencher: Bencher, (n_cols, n_rows): (usize, usize)) {
-    let map = map(n_cols, n_rows);
+    let map = town_map(n_cols, n_rows);
     bencher.bench_local(|| warm(black_box(&map)));
 }
 
 #[divan::bench(args = SIZES)]
 fn short_query(bencher: Bencher, (n_cols, n_rows): (usize, usize)) {
-    let (mut planner, request) = warm(&map(n_cols, n_rows));
+    let (mut planner, request) = warm(&town_map(n_cols, n_rows));
     bencher.bench_local(|| planner.plan(black_box(&request), Seed(1), &mut ()));
 }
 
 #[divan::bench(args = SIZES)]
 fn new_obstacle_map(bencher: Bencher, (n_cols, n_rows): (usize, usize)) {
-    let map = map(n_cols, n_rows);
+    let map = town_map(n_cols, n_rows);
     bencher.bench_local(|| ObstacleMap::new(black_box(&map)));
 }

@@ -7,7 +7,7 @@
 //! Modules are ranked, and each uses only those before it: [`numeric`], [`geometry`], [`vehicle`],
 //! [`map`], [`path`], [`collision`], [`scenario`], [`validation`], [`metrics`], [`progress`],
 //! [`layers`], [`objective`], [`smoothing`], [`search`], [`colony`], [`evolution`],
-//! [`tracking`], [`planner`], [`render`]. SI units and radians inside; a pose is the center of the rear axle, x forward, y
+//! [`tracking`], [`planner`], [`tuning`], [`render`]. SI units and radians inside; a pose is the center of the rear axle, x forward, y
 //! left, heading counter-clockwise.
 #![forbid(unsafe_code)]
 
@@ -28,6 +28,7 @@ pub mod scenario;
 pub mod search;
 pub mod smoothing;
 pub mod tracking;
+pub mod tuning;
 pub mod validation;
 pub mod vehicle;
 

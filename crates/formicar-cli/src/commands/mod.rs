@@ -16,6 +16,7 @@ mod stdin;
 mod stress;
 mod subject;
 mod track;
+mod tune;
 
 pub(crate) use bench::BenchArgs;
 pub(crate) use compare::CompareArgs;
@@ -24,6 +25,7 @@ pub(crate) use report::ReportArgs;
 pub(crate) use reproduce::ReproduceArgs;
 pub(crate) use stress::StressArgs;
 pub(crate) use track::TrackArgs;
+pub(crate) use tune::TuneArgs;
 
 use crate::args::Command;
 use crate::failure::{Ending, Failure};
@@ -42,6 +44,7 @@ pub(crate) fn run(command: &Command, out: &mut impl Write) -> Result<Ending, Fai
         Command::Report(args) => report::run(args, out),
         Command::Reproduce(args) => reproduce::run(args, out),
         Command::Stress(args) => stress::run(args, out),
+        Command::Tune(args) => tune::run(args, out),
         Command::Map(args) => map::run(args, out),
         Command::List(args) => list::run(args, out),
         Command::Schema(args) => meta::schema(args, out),

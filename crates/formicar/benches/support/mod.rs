@@ -1,8 +1,9 @@
 //! Maps for benchmarks.
 #![allow(dead_code, reason = "each benchmark uses a part")]
 
+use formicar::geometry::Pose2;
 use formicar::map::format::read_car_scenarios;
-use formicar::map::{BitGrid, Cell, OccupancyGrid};
+use formicar::map::{BitGrid, Cell, GridFrame, OCCUPIED, OccupancyGrid};
 use formicar::numeric::Seed;
 use formicar::planner::{Planner, PlannerConfig};
 use formicar::scenario::Request;
@@ -32,6 +33,16 @@ pub(crate) fn town(n_cols: usize, n_rows: usize) -> BitGrid {
         top += height + 10 + stream.below(10);
     }
     lethal
+}
+
+/// The town as a map of cells of 0.2 m.
+pub(crate) fn town_map(n_cols: usize, n_rows: usize) -> OccupancyGrid {
+    let frame = GridFrame::new(n_cols, n_rows, 0.2, Pose2::default()).expect("a frame");
+    let mut map = OccupancyGrid::free(frame);
+    for cell in town(n_cols, n_rows).iter() {
+        map.set(cell, OCCUPIED);
+    }
+    map
 }
 
 /// Grid sizes of the benchmarks.

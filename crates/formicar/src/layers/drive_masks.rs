@@ -8,17 +8,19 @@ use std::sync::OnceLock;
 
 /// Places inside a cell that are told apart, along each axis.
 const SUB_CELLS: usize = 4;
-/// Turns longer than this are swept in pieces, radians; a piece leaves the convex hull of its ends
-/// by a thousandth of the corner's radius at most.
+/// Turns longer than this are swept in pieces, radians. A piece leaves the convex hull of its ends
+/// by a thousandth of the corner's radius at most; the hull stands out of the piece, where it fills
+/// the notch between two poses, by a quarter of this times the body's diameter at most.
 const PIECE_RAD: f64 = std::f64::consts::PI / 36.0;
 
 /// Masks of the cells that a body may touch on each motion primitive from each heading of a
 /// lattice, for sixteen places of the rear axle inside its cell.
 ///
 /// Where a mask is clear, the motion is free from every position in that sixteenth of a cell; it
-/// may be free though the mask is not clear, by an eighth of a cell each way. Sampling poses along
-/// an arc instead would miss what the swinging front corner sweeps between them. The masks of a
-/// heading are made when they are first asked for. Width and number of rows are not limited.
+/// may be free though the mask is not clear, by a quarter of a cell each way and what the hulls of
+/// its pieces stand out by. Sampling poses along an arc instead would miss what the swinging front
+/// corner sweeps between them. The masks of a heading are made when they are first asked for. Width
+/// and number of rows are not limited.
 #[derive(Clone, Debug)]
 pub struct DriveMasks {
     lattice: PrimitiveSet,
@@ -212,8 +214,11 @@ mod tests {
             };
             let is_clear = masks.is_clear(&padded, position, heading, primitive);
             prop_assert!(!is_clear || map.is_free(&Body::new(&vehicle), &drive));
-            // An eighth of a cell along each axis, and what the hulls of 5 degrees stand out by.
-            let margin_m = 0.25 * std::f64::consts::SQRT_2 * resolution_m + 0.01;
+            // A quarter of a cell along each axis; a point of a hull lies between one of the body
+            // at its piece's beginning and one at its end; and sagittas.
+            let (low, high) = vehicle.footprint().bounds();
+            let hulls_m = 0.25 * PIECE_RAD * low.distance(high) + 0.01;
+            let margin_m = 0.25 * std::f64::consts::SQRT_2 * resolution_m + hulls_m;
             let wider = Body::new(&vehicle.with_safety_margin(margin_m).unwrap());
             prop_assert!(is_clear || !map.is_free(&wider, &drive));
         }

@@ -1,0 +1,184 @@
+//! Runs of a configuration on a scenario.
+
+use crate::experiment::Ground;
+use formicar::collision::{Body, ObstacleMap};
+use formicar::geometry::Arc;
+use formicar::numeric::Seed;
+use formicar::objective::{DriveCost, DriveMeter};
+use formicar::planner::{Outcome, Plan, Planner, PlannerConfig};
+use formicar::progress::{Event, Observer};
+use formicar::vehicle::Motion;
+use serde::Serialize;
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+/// A scenario that is asked: its ground, prepared once.
+#[derive(Clone, Debug)]
+pub struct Asked {
+    /// Name, map, vehicle and request; the request has a budget of steps and no deadline.
+    pub ground: Ground,
+    obstacles: std::sync::Arc<ObstacleMap>,
+}
+
+/// What a run came to.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TunedRun {
+    /// The scenario.
+    pub scenario: String,
+    /// The configuration: `default` or `tuned`.
+    pub variant: &'static str,
+    /// The seed.
+    pub seed: u64,
+    /// How it ended; the fault where the request or the configuration was refused.
+    pub status: String,
+    /// What its certified path costs to drive by the usual weights, metres; of a point its length.
+    pub cost_m: Option<f64>,
+    /// Length of its path, metres.
+    pub length_m: Option<f64>,
+    /// Steps to the first certified path.
+    pub first_steps: Option<u64>,
+    /// Steps in all.
+    pub steps: Option<u64>,
+}
+
+/// Steps at the first certified path.
+#[derive(Default)]
+struct FirstPath(Option<u64>);
+
+impl Observer for FirstPath {
+    fn on_event(&mut self, event: &Event) {
+        if let Event::Improved { n_steps, .. } = event {
+            self.0.get_or_insert(*n_steps);
+        }
+    }
+}
+
+impl Asked {
+    /// Prepares a ground.
+    pub fn new(ground: Ground) -> Self {
+        Self {
+            obstacles: std::sync::Arc::new(ObstacleMap::new(&ground.grid)),
+            ground,
+        }
+    }
+
+    /// The hash of the map, for provenance.
+    pub(super) fn map_hash(&self) -> u128 {
+        self.obstacles.hash()
+    }
+
+    /// Runs a configuration with each seed.
+    fn run(
+        &self,
+        config: &PlannerConfig,
+        variant: &'static str,
+        seeds: Range<u64>,
+    ) -> Vec<TunedRun> {
+        let vehicle = self.ground.vehicle.clone();
+        let planner = Planner::on(self.obstacles.clone(), vehicle, config.clone());
+        let run = |seed: u64, asked: Result<(Outcome, FirstPath), String>| {
+            let blank = TunedRun {
+                scenario: self.ground.map.clone(),
+                variant,
+                seed,
+                status: String::new(),
+                cost_m: None,
+                length_m: None,
+                first_steps: None,
+                steps: None,
+            };
+            match asked {
+                Ok((outcome, first)) => self.measured(blank, &outcome, &first),
+                Err(status) => TunedRun { status, ..blank },
+            }
+        };
+        let mut planner = match planner {
+            Ok(planner) => planner,
+            Err(error) => {
+                let refused = seeds.map(|seed| run(seed, Err(error.to_string())));
+                return refused.collect();
+            }
+        };
+        let runs = seeds.map(|seed| {
+            let mut first = FirstPath::default();
+            let outcome = planner.plan(&self.ground.request, Seed(seed), &mut first);
+            let asked = outcome.map_err(|error| error.to_string());
+            run(seed, asked.map(|outcome| (outcome, first)))
+        });
+        runs.collect()
+    }
+
+    fn measured(&self, blank: TunedRun, outcome: &Outcome, first: &FirstPath) -> TunedRun {
+        let n_steps = outcome.n_steps();
+        let run = TunedRun {
+            status: outcome.status().name().to_owned(),
+            steps: Some(n_steps),
+            ..blank
+        };
+        match outcome {
+            Outcome::Found(plan) => TunedRun {
+                cost_m: Some(self.cost_m(plan)),
+                length_m: Some(plan.metrics.length_m),
+                first_steps: Some(first.0.unwrap_or(n_steps)),
+                ..run
+            },
+            Outcome::NotFound(_) => run,
+        }
+    }
+
+    fn cost_m(&self, plan: &Plan) -> f64 {
+        let vehicle = &self.ground.vehicle;
+        if vehicle.motion() == Motion::Point {
+            return plan.metrics.length_m;
+        }
+        let (cost, body) = (DriveCost::default(), Body::new(vehicle));
+        let radius_m = vehicle.min_turning_radius_m();
+        let meter = DriveMeter::new(&self.obstacles, &body, &cost, radius_m);
+        let arcs: Vec<Arc> = plan
+            .path
+            .segments()
+            .iter()
+            .map(|s| Arc::new(s.curvature_per_m, s.direction.sign() * s.length_m))
+            .collect();
+        let start = self.obstacles.frame().to_grid(plan.path.start());
+        meter.path_m(start, &arcs)
+    }
+}
+
+/// The runs of each configuration on all scenarios with all seeds, on some threads; the result does
+/// not depend on their number.
+pub(super) fn run_all(
+    configs: &[(&'static str, PlannerConfig)],
+    scenarios: &[Asked],
+    seeds: &Range<u64>,
+    n_jobs: usize,
+) -> Vec<Vec<Vec<TunedRun>>> {
+    let n_all = configs.len() * scenarios.len();
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mine = std::iter::from_fn(|| {
+            let i = next.fetch_add(1, Ordering::Relaxed);
+            (i < n_all).then_some(i)
+        });
+        let ran = mine.map(|i| {
+            let (name, config) = &configs[i / scenarios.len()];
+            let runs = scenarios[i % scenarios.len()].run(config, name, seeds.clone());
+            (i, runs)
+        });
+        ran.collect::<Vec<_>>()
+    };
+    let mut all = thread::scope(|scope| {
+        let workers: Vec<_> = (0..n_jobs.max(1)).map(|_| scope.spawn(work)).collect();
+        let ran = workers.into_iter().flat_map(|worker| {
+            worker
+                .join()
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        });
+        ran.collect::<Vec<_>>()
+    });
+    all.sort_by_key(|(i, _)| *i);
+    let mut runs = all.into_iter().map(|(_, runs)| runs);
+    let of_config = |_| runs.by_ref().take(scenarios.len()).collect();
+    configs.iter().map(of_config).collect()
+}

@@ -1,0 +1,316 @@
+//! Which parameters of a planner can be tuned, and in which ranges: the configuration's schema
+//! tells.
+
+use anyhow::{Context, Result, bail};
+use formicar::planner::PlannerConfig;
+use formicar::tuning::{Dimension, Kind, ParameterSpace};
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+/// A range that the caller gives for a parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OwnRange {
+    /// The parameter, dotted.
+    pub key: String,
+    /// The least value.
+    pub low: f64,
+    /// The greatest.
+    pub high: f64,
+    /// Whether equal ratios are equally far.
+    pub is_log: bool,
+}
+
+/// Parameters of a configuration that can be tuned.
+///
+/// A number takes the range of the schema or of the caller, a word one of the words of the schema,
+/// a switch both its positions. Rules stay as they are, since another rule has other parameters;
+/// so do lists.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TuningSpace {
+    /// The space, its dimensions named by dotted keys.
+    pub space: ParameterSpace,
+    /// Per dimension the words that can be chosen; none of numbers.
+    choices: Vec<Vec<Value>>,
+    /// The configuration around them.
+    base: Value,
+}
+
+/// A leaf of the configuration: its key, its value, and its part of the schema.
+struct Leaf {
+    key: String,
+    value: Value,
+    schema: Value,
+}
+
+impl TuningSpace {
+    /// The parameters named by `keys`, and those of all sections in `groups` whose range is known;
+    /// of neither, those of all sections. Also the parameters of the groups that were left out for
+    /// want of a finite range.
+    ///
+    /// # Errors
+    /// A key or group that the planner does not use, one that cannot be tuned, or a range that is
+    /// none.
+    pub fn new(
+        base: &PlannerConfig,
+        (keys, groups): (&[String], &[String]),
+        ranges: &[OwnRange],
+    ) -> Result<(Self, Vec<String>)> {
+        let base = serde_json::to_value(base)?;
+        let leaves = leaves(&base);
+        for name in keys.iter().chain(ranges.iter().map(|range| &range.key)) {
+            known(name, &leaves)?;
+        }
+        for group in groups {
+            known_group(group, &leaves)?;
+        }
+        let (mut dimensions, mut choices, mut left_out) = (Vec::new(), Vec::new(), Vec::new());
+        for leaf in &leaves {
+            let is_named = keys.contains(&leaf.key);
+            let is_meant = is_named || (keys.is_empty() && groups.is_empty());
+            if !is_meant && !groups.iter().any(|group| is_within(&leaf.key, group)) {
+                continue;
+            }
+            let own = ranges.iter().find(|range| range.key == leaf.key);
+            match leaf.dimension(own)? {
+                Some((dimension, words)) => {
+                    dimensions.push(dimension);
+                    choices.push(words);
+                }
+                None if is_named => bail!(
+                    "{}: its schema has no finite range; hint: --range {}=LOW..HIGH",
+                    leaf.key,
+                    leaf.key
+                ),
+                None => left_out.push(leaf.key.clone()),
+            }
+        }
+        if let Some(range) = ranges
+            .iter()
+            .find(|range| dimensions.iter().all(|d| d.name != range.key))
+        {
+            bail!(
+                "--range {}: this parameter is not tuned; hint: --parameter {}",
+                range.key,
+                range.key
+            );
+        }
+        let space = ParameterSpace::new(dimensions)?;
+        let tuned = Self {
+            space,
+            choices,
+            base,
+        };
+        Ok((tuned, left_out))
+    }
+
+    /// The configuration with values in the place of its own; none where they do not go together.
+    pub fn config(&self, values: &[f64]) -> Option<PlannerConfig> {
+        let mut whole = self.base.clone();
+        for (key, value) in self.parameters(values) {
+            *whole.pointer_mut(&pointer(key))? = value;
+        }
+        let config: PlannerConfig = serde_json::from_value(whole).ok()?;
+        config.check().is_ok().then_some(config)
+    }
+
+    /// Only what is tuned, as a document: tables of values, with the planner's name.
+    pub fn document(&self, values: &[f64]) -> Value {
+        let mut whole = Map::new();
+        if let Some(planner) = self.base.get("planner") {
+            whole.insert("planner".to_owned(), planner.clone());
+        }
+        for (key, value) in self.parameters(values) {
+            insert(&mut whole, key, value);
+        }
+        Value::Object(whole)
+    }
+
+    /// The values that the configuration has by itself.
+    ///
+    /// # Errors
+    /// One that is outside its range.
+    pub fn own_values(&self) -> Result<Vec<f64>> {
+        let pairs = self.space.dimensions().iter().zip(&self.choices);
+        let own = |(dimension, choices): (&Dimension, &Vec<Value>)| {
+            let value = self.base.pointer(&pointer(&dimension.name));
+            let value = value.context("a dimension is a leaf of its configuration")?;
+            let place = choices.iter().position(|choice| choice == value);
+            let number = place.map(|place| place as f64).or(value.as_f64());
+            number.with_context(|| format!("{} = {value} is no choice", dimension.name))
+        };
+        pairs.map(own).collect()
+    }
+
+    /// Keys and values, as they stand in a document.
+    pub fn parameters(&self, values: &[f64]) -> Vec<(&str, Value)> {
+        let dimensions = self.space.dimensions().iter();
+        let triples = dimensions.zip(&self.choices).zip(values);
+        triples
+            .map(|((dimension, choices), &value)| {
+                let written = match dimension.kind {
+                    Kind::Choice { .. } => choices[value as usize].clone(),
+                    Kind::Integer { .. } | Kind::LogInteger { .. } => Value::from(value as u64),
+                    Kind::Real { .. } | Kind::LogReal { .. } => Value::from(value),
+                };
+                (dimension.name.as_str(), written)
+            })
+            .collect()
+    }
+}
+
+impl Leaf {
+    /// The dimension and its words; none of a leaf whose range is open or that is no value.
+    fn dimension(&self, own: Option<&OwnRange>) -> Result<Option<(Dimension, Vec<Value>)>> {
+        let words = self.words();
+        if !words.is_empty() {
+            if own.is_some() {
+                bail!("--range {}: it takes words, not numbers", self.key);
+            }
+            let n_choices = words.len() as u32;
+            let kind = Kind::Choice { n_choices };
+            return Ok(Some((Dimension::new(&self.key, kind), words)));
+        }
+        let bound = |name: &str| self.schema.get(name).and_then(Value::as_f64);
+        let known = [bound("minimum"), bound("maximum")];
+        let (low, high) = match (own, known) {
+            (Some(own), _) => (own.low, own.high),
+            (None, [Some(low), Some(high)]) => (low, high),
+            _ => return Ok(None),
+        };
+        if low < known[0].unwrap_or(low) || high > known[1].unwrap_or(high) {
+            let [low, high] = known.map(|bound| bound.map_or("any".to_owned(), |b| b.to_string()));
+            bail!("--range {}: it must stay in {low} to {high}", self.key);
+        }
+        let is_log = own.is_some_and(|own| own.is_log);
+        let kind = match (self.schema["type"].as_str(), is_log) {
+            (Some("integer"), true) => Kind::LogInteger { low, high },
+            (Some("integer"), false) => Kind::Integer { low, high },
+            (_, true) => Kind::LogReal { low, high },
+            (_, false) => Kind::Real { low, high },
+        };
+        let is_number = self.value.is_number();
+        Ok(is_number.then(|| (Dimension::new(&self.key, kind), Vec::new())))
+    }
+
+    /// The words that it can be; both positions of a switch.
+    fn words(&self) -> Vec<Value> {
+        if self.value.is_boolean() {
+            return vec![Value::Bool(false), Value::Bool(true)];
+        }
+        if !self.value.is_string() {
+            return Vec::new();
+        }
+        let variants = self.schema["oneOf"].as_array().into_iter().flatten();
+        let constants = variants.filter_map(|variant| variant.get("const").cloned());
+        let listed = self.schema["enum"].as_array().into_iter().flatten();
+        let words: Vec<Value> = constants.chain(listed.cloned()).collect();
+        if words.len() < 2 { Vec::new() } else { words }
+    }
+}
+
+/// All values of a configuration but the planner's name, the names of rules, and lists.
+fn leaves(base: &Value) -> Vec<Leaf> {
+    let schema = schemars::schema_for!(PlannerConfig).to_value();
+    let mut leaves = Vec::new();
+    collect(&mut leaves, String::new(), base, (&schema, &schema));
+    leaves.retain(|leaf| leaf.key != "planner");
+    // The order of a document's keys is that of the JSON library; that of dimensions is ours.
+    leaves.sort_by(|a, b| a.key.cmp(&b.key));
+    leaves
+}
+
+fn collect(leaves: &mut Vec<Leaf>, key: String, value: &Value, (part, whole): (&Value, &Value)) {
+    let part = resolved(part, whole);
+    let Value::Object(fields) = value else {
+        if !(value.is_array() || value.is_null()) {
+            leaves.push(Leaf {
+                key,
+                value: value.clone(),
+                schema: part,
+            });
+        }
+        return;
+    };
+    // The variant of the rule in use, beside what all variants have.
+    let variants = part["oneOf"].as_array().into_iter().flatten();
+    let variants = variants.map(|variant| resolved(variant, whole));
+    let of_rule: Vec<Value> = variants
+        .filter(|variant| variant["properties"]["rule"]["const"] == value["rule"])
+        .collect();
+    for (name, value) in fields {
+        if name == "rule" {
+            continue;
+        }
+        let places = std::iter::once(&part).chain(&of_rule);
+        let mut found = places.filter_map(|place| place["properties"].get(name));
+        let dot = if key.is_empty() { "" } else { "." };
+        let inner = found.next_back().unwrap_or(&Value::Null);
+        collect(leaves, format!("{key}{dot}{name}"), value, (inner, whole));
+    }
+}
+
+/// A part of a schema with what it refers to laid in.
+fn resolved(part: &Value, whole: &Value) -> Value {
+    let reference = part.get("$ref").and_then(Value::as_str);
+    let target = reference.and_then(|path| whole.pointer(path.trim_start_matches('#')));
+    let (Some(Value::Object(target)), Value::Object(own)) = (target, part) else {
+        return part.clone();
+    };
+    let mut merged = target.clone();
+    merged.extend(own.iter().map(|(key, value)| (key.clone(), value.clone())));
+    merged.remove("$ref");
+    Value::Object(merged)
+}
+
+fn pointer(key: &str) -> String {
+    format!("/{}", key.replace('.', "/"))
+}
+
+fn insert(table: &mut Map<String, Value>, key: &str, value: Value) {
+    match key.split_once('.') {
+        None => {
+            table.insert(key.to_owned(), value);
+        }
+        Some((section, rest)) => {
+            let inner = table
+                .entry(section)
+                .or_insert_with(|| Value::Object(Map::new()));
+            if let Value::Object(inner) = inner {
+                insert(inner, rest, value);
+            }
+        }
+    }
+}
+
+fn is_within(key: &str, group: &str) -> bool {
+    key.strip_prefix(group)
+        .is_some_and(|rest| rest.starts_with('.'))
+}
+
+fn known(name: &str, leaves: &[Leaf]) -> Result<()> {
+    if leaves.iter().any(|leaf| leaf.key == name) {
+        return Ok(());
+    }
+    let keys: Vec<&str> = leaves.iter().map(|leaf| leaf.key.as_str()).collect();
+    bail!(
+        "the planner has no parameter {name:?} that can be tuned; there are {}",
+        keys.join(", ")
+    );
+}
+
+fn known_group(group: &str, leaves: &[Leaf]) -> Result<()> {
+    if leaves.iter().any(|leaf| is_within(&leaf.key, group)) {
+        return Ok(());
+    }
+    let mut groups: Vec<&str> = leaves
+        .iter()
+        .filter_map(|leaf| leaf.key.rsplit_once('.').map(|(group, _)| group))
+        .collect();
+    groups.sort_unstable();
+    groups.dedup();
+    bail!(
+        "the planner has no group {group:?}; there are {}",
+        groups.join(", ")
+    );
+}
