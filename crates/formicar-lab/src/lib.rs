@@ -13,6 +13,7 @@ mod li2024;
 mod replanning;
 pub mod report;
 mod reproduction;
+pub mod rival;
 pub mod standing;
 pub mod statistics;
 pub mod stress;

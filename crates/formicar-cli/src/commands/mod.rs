@@ -12,6 +12,7 @@ mod plan;
 mod report;
 mod reproduce;
 mod results;
+mod rival;
 mod stdin;
 mod stress;
 mod subject;
@@ -23,6 +24,7 @@ pub(crate) use compare::CompareArgs;
 pub(crate) use map::MapArgs;
 pub(crate) use report::ReportArgs;
 pub(crate) use reproduce::ReproduceArgs;
+pub(crate) use rival::RivalPlanner;
 pub(crate) use stress::StressArgs;
 pub(crate) use track::TrackArgs;
 pub(crate) use tune::TuneArgs;
@@ -40,6 +42,8 @@ pub(crate) fn run(command: &Command, out: &mut impl Write) -> Result<Ending, Fai
         Command::Track(args) => track::run(args, out),
         Command::Bench(args) => bench::run(args, out),
         Command::BenchRun { job } => bench::run_one(job, out),
+        Command::Rival { planner } => rival::run(*planner, out),
+        Command::RivalRun { words } => rival::replace(words),
         Command::Compare(args) => compare::run(args, out),
         Command::Report(args) => report::run(args, out),
         Command::Reproduce(args) => reproduce::run(args, out),

@@ -1,6 +1,6 @@
 //! The process of one run: plans, measures itself, and prints its row.
 
-use super::{measure, place, usage};
+use super::{measure, place, rival, usage};
 use crate::commands::plan::{Answered, Session};
 use crate::failure::{Ending, Failure};
 use crate::{ground, settings};
@@ -22,6 +22,12 @@ pub(crate) fn run_one(job: &str, out: &mut impl Write) -> Result<Ending, Failure
     usage::end_with_parent();
     let job: Job = serde_json::from_str(job).context("the run")?;
     let contender = &job.contender;
+    if let Some(command) = &contender.rival {
+        let told = rival::run_one(&job, command)?;
+        serde_json::to_writer(&mut *out, &told).map_err(std::io::Error::from)?;
+        writeln!(out)?;
+        return Ok(Ending::Done);
+    }
     let config = (contender.config.clone(), contender.name.as_str());
     let config = settings::typed(&settings::merge(config, &[], Some(contender.planner))?)?;
     let ground = ground::load(&place::ground_args(&job.task, job.vehicle_source()))?;
@@ -54,7 +60,8 @@ pub(crate) fn run_one(job: &str, out: &mut impl Write) -> Result<Ending, Failure
     let planner = &session.planner;
     let asked = request.onto(&RequestDocument::default()).ok();
     if let Some(asked) = &asked {
-        measure::ground(&mut row, planner, [asked.start, asked.goal]);
+        let place = (&**planner.obstacles(), planner.vehicle());
+        measure::ground(&mut row, place, [asked.start, asked.goal]);
     }
     if let Ok(Outcome::Found(plan)) = &answered.result {
         if let Some(asked) = &asked {

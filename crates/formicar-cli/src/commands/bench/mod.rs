@@ -8,6 +8,7 @@ pub(super) mod execute;
 mod measure;
 mod place;
 mod results;
+mod rival;
 mod runs;
 mod standing;
 pub(super) mod store;
@@ -18,6 +19,7 @@ mod variant;
 
 pub(crate) use args::BenchArgs;
 pub(crate) use child::run_one;
+pub(super) use usage::end_with_parent;
 
 use super::machine;
 use crate::failure::{Ending, Failure};
