@@ -1,8 +1,8 @@
 //! Commands and flags.
 
 use crate::commands::{
-    BenchArgs, CompareArgs, MapArgs, ReportArgs, ReproduceArgs, RivalPlanner, StressArgs,
-    TrackArgs, TuneArgs,
+    BenchArgs, CompareArgs, ImportArgs, MapArgs, ReportArgs, ReproduceArgs, RivalPlanner,
+    StressArgs, TrackArgs, TuneArgs,
 };
 use crate::values;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
@@ -38,6 +38,8 @@ pub(crate) enum Command {
     Bench(Box<BenchArgs>),
     /// Compare two stores of results, or two builds: a verdict per metric.
     Compare(CompareArgs),
+    /// Judge files of other planners, and add them to a table of results.
+    Import(Box<ImportArgs>),
     /// Turn stores of results into a page with tables, CSV and LaTeX.
     Report(ReportArgs),
     /// Repeat the experiments of a paper: tables beside its own.

@@ -82,7 +82,7 @@ fn paths_of_programs_are_judged_and_tabled_beside_ours() {
     assert_eq!(rows["straight"]["first_feasible_s"], "0.001");
     let [status, valid, reason] = of("jump", ["status", "valid", "reason"]);
     assert_eq!([status.as_str(), &valid], ["found", "false"]);
-    assert!(reason.contains("curvature"), "{reason}");
+    assert!(reason.contains("turns on the spot"), "{reason}");
     for (planner, status, told) in [
         ("odd", "crashed", "poses: none"),
         ("dies", "crashed", "exit status: 4: no luck"),
@@ -164,4 +164,118 @@ fn programs_that_do_not_start_are_told_before_any_run() {
         let run = room.run(&["bench", "c.toml", "--store", "s.sqlite"]);
         run.assert_refused(&["planner \"it\"", told]);
     }
+}
+
+#[test]
+fn files_of_others_are_judged_and_tabled_beside_ours() {
+    let room = Room::new();
+    room.write("s.json", SCENARIO);
+    room.write("good.csv", "x,y,yaw\n2,4,0\n3,4,0\n5,4,0\n");
+    room.write("short.csv", "2,4,0\n3,4,0\n");
+    let pose = |x: f64| {
+        format!(
+            r#"{{"pose": {{"position": {{"x": {x}, "y": 4}}, "orientation": {{"z": 0, "w": 1}}}}}}"#
+        )
+    };
+    room.write(
+        "nav.json",
+        format!(r#"{{"poses": [{}, {}]}}"#, pose(2.0), pose(5.0)),
+    );
+    room.write(
+        "door.log",
+        "OMPL version 2.0.1\nExperiment door\n1 planners\ngeometric_RRT\n0 common properties\n\
+         3 properties for each run\nsolved BOOLEAN\ntime REAL\nsolution length REAL\n2 runs\n\
+         1; 0.25; 3.5; \n0; 1; 0; \n.\n",
+    );
+    let import = |words: &[&str]| {
+        let shared = ["import", "--scenario", "s.json", "--out", "r.csv"];
+        room.run(&[&shared[..], words].concat())
+    };
+    let run = import(&[
+        "good.csv",
+        "short.csv",
+        "--planner",
+        "lattice",
+        "--query",
+        "0.5",
+    ]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    assert!(
+        run.stdout.contains("s  lattice  seed 0  valid\n"),
+        "{}",
+        run.stdout
+    );
+    assert!(
+        run.stdout
+            .contains("seed 1  invalid: the path misses the goal"),
+        "{}",
+        run.stdout
+    );
+    // Once more, with a goal that is reached more loosely: the row is replaced.
+    let loose = [
+        "--goal-tolerance",
+        "2.5,0.1",
+        "--seed",
+        "1",
+        "--planner",
+        "lattice",
+    ];
+    let run = import(&[&["short.csv"], &loose[..]].concat());
+    assert!(run.stdout.contains("1 runs of 2 are new"), "{}", run.stdout);
+    assert_eq!(import(&["nav.json", "--planner", "nav"]).code, 0);
+    assert!(
+        import(&["door.log"])
+            .stdout
+            .contains("geometric_RRT  seed 0  found: its log holds no")
+    );
+    assert_eq!(import(&["door.log", "--trust"]).code, 0);
+    room.write(
+        "c.toml",
+        "[[scenarios]]\nfile = \"s.json\"\n[[planner]]\nplanner = \"hybrid-astar\"\n",
+    );
+    assert_eq!(
+        room.run(&["bench", "c.toml", "--store", "o.sqlite"]).code,
+        0
+    );
+    let page = room.run(&["report", "o.sqlite", "r.csv", "--out", "page"]);
+    assert_eq!((page.code, page.stderr.as_str()), (0, ""));
+    for row in [
+        "| hybrid-astar | 1/1",
+        "| lattice | 2/2",
+        "| nav | 1/1",
+        "| geometric_RRT | 0/2",
+        "| geometric_RRT (own word) | 1/2",
+    ] {
+        assert!(page.stdout.contains(row), "no {row:?} in: {}", page.stdout);
+    }
+    let only = [
+        "import",
+        "--scenario",
+        "s.json",
+        "nav.json",
+        "--planner",
+        "nav",
+        "--out",
+        "n.csv",
+    ];
+    assert_eq!(room.run(&only).code, 0);
+    let compared = room.run(&["compare", "o.sqlite", "n.csv"]);
+    assert_eq!((compared.code, compared.stderr.as_str()), (0, ""));
+    for (name, text, words) in [
+        ("a.csv", "1,2,3\n1,two,3\n", ["a.csv", "line 2", "\"two\""]),
+        (
+            "b.json",
+            "{\"poses\": [{}]}",
+            ["b.json", "nav_msgs/Path", "missing field `pose`"],
+        ),
+        (
+            "c.log",
+            "OMPL version 2\n1 planners\nRRT\nodd\n",
+            ["c.log", "line 4", "common properties"],
+        ),
+    ] {
+        room.write(name, text);
+        import(&[name, "--planner", "it"]).assert_refused(&words);
+    }
+    import(&["good.csv"]).assert_refused(&["good.csv", "--planner NAME"]);
 }

@@ -4,6 +4,7 @@ mod bench;
 mod check;
 mod compare;
 mod demo;
+mod import;
 mod list;
 mod machine;
 mod map;
@@ -21,6 +22,7 @@ mod tune;
 
 pub(crate) use bench::BenchArgs;
 pub(crate) use compare::CompareArgs;
+pub(crate) use import::ImportArgs;
 pub(crate) use map::MapArgs;
 pub(crate) use report::ReportArgs;
 pub(crate) use reproduce::ReproduceArgs;
@@ -45,6 +47,7 @@ pub(crate) fn run(command: &Command, out: &mut impl Write) -> Result<Ending, Fai
         Command::Rival { planner } => rival::run(*planner, out),
         Command::RivalRun { words } => rival::replace(words),
         Command::Compare(args) => compare::run(args, out),
+        Command::Import(args) => import::run(args, out),
         Command::Report(args) => report::run(args, out),
         Command::Reproduce(args) => reproduce::run(args, out),
         Command::Stress(args) => stress::run(args, out),

@@ -5,7 +5,7 @@ mod args;
 pub(super) mod campaign;
 mod child;
 pub(super) mod execute;
-mod measure;
+pub(super) mod measure;
 mod place;
 mod results;
 mod rival;
