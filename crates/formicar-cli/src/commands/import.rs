@@ -1,4 +1,5 @@
 //! `import`: files of other planners as rows of results, judged where they hold a path.
+#![allow(clippy::doc_markdown, reason = "clap prints these words as they stand")]
 
 use super::bench::measure;
 use crate::args::GroundArgs;

@@ -253,35 +253,20 @@ mod tests {
         assert!(document.vehicles.is_empty() && !document.is_cold);
     }
 
+    /// Every text is refused in the words beside it.
+    fn assert_told(cases: &[(&str, &str)]) {
+        for (text, told) in cases {
+            let error = read(&format!("{text}{SCENARIOS}")).unwrap_err().to_string();
+            assert!(
+                error.starts_with("c.toml, line ") && error.contains(told),
+                "{error}"
+            );
+        }
+    }
+
     #[test]
-    fn mistakes_name_file_line_key_and_what_is_allowed() {
-        let cases = [
-            (
-                "sedes = 3\n",
-                "c.toml, line 1, sedes: unknown field `sedes`, expected one of `name`, `seeds`",
-            ),
-            (
-                "\nbudget_steps = 0\n",
-                "line 2, budget_steps: 0; expected a number above 0",
-            ),
-            (
-                "deadline_ms = nan\n",
-                "line 1, deadline_ms: NaN; expected a number above 0",
-            ),
-            (
-                "budget_steps = \"much\"\n",
-                "line 1, budget_steps: invalid type: string \"much\", expected u64",
-            ),
-            (
-                "cold = 1\n",
-                "line 1, cold: invalid type: integer `1`, expected a boolean",
-            ),
-            (
-                "motion = \"back\"\n",
-                "line 1, motion: expected \"reverse\" (both gears), \"forward\"",
-            ),
-            ("motion = [\"reverse\", \"reverse\"]\n", "a list of both"),
-            ("seeds = 0\n", "line 1, seeds: expected a count from 1"),
+    fn mistakes_in_planners_name_file_line_key_and_what_is_allowed() {
+        assert_told(&[
             (
                 "[[planner]]\nplanner = \"rrt\"\n",
                 "line 2, planner: no planner is named \"rrt\"; there are formicar, hybrid-astar",
@@ -318,6 +303,38 @@ mod tests {
                 "[[planner]]\nname = \"x\"\ncommand = [\"x\"]\nset = [\"a=1\"]\n",
                 "line 4, set: a program has its own parameters",
             ),
+        ]);
+    }
+
+    #[test]
+    fn mistakes_name_file_line_key_and_what_is_allowed() {
+        let cases = [
+            (
+                "sedes = 3\n",
+                "c.toml, line 1, sedes: unknown field `sedes`, expected one of `name`, `seeds`",
+            ),
+            (
+                "\nbudget_steps = 0\n",
+                "line 2, budget_steps: 0; expected a number above 0",
+            ),
+            (
+                "deadline_ms = nan\n",
+                "line 1, deadline_ms: NaN; expected a number above 0",
+            ),
+            (
+                "budget_steps = \"much\"\n",
+                "line 1, budget_steps: invalid type: string \"much\", expected u64",
+            ),
+            (
+                "cold = 1\n",
+                "line 1, cold: invalid type: integer `1`, expected a boolean",
+            ),
+            (
+                "motion = \"back\"\n",
+                "line 1, motion: expected \"reverse\" (both gears), \"forward\"",
+            ),
+            ("motion = [\"reverse\", \"reverse\"]\n", "a list of both"),
+            ("seeds = 0\n", "line 1, seeds: expected a count from 1"),
             (
                 "[[scenarios]]\nids = [\"a\"]\n",
                 "line 1, [[scenarios]]: expected either builtin",
@@ -332,13 +349,7 @@ mod tests {
             ),
             ("seeds = \n", "line 1, seeds: "),
         ];
-        for (text, told) in cases {
-            let error = read(&format!("{text}{SCENARIOS}")).unwrap_err().to_string();
-            assert!(
-                error.starts_with("c.toml, line ") && error.contains(told),
-                "{error}"
-            );
-        }
+        assert_told(&cases);
         assert!(read("").unwrap_err().to_string().contains("no scenarios"));
     }
 }

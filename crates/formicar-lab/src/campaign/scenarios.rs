@@ -13,7 +13,7 @@ pub struct ScenariosEntry {
     /// Names of built-in maps, `narrow` (the narrow set) or `builtin` (all of them).
     #[serde(default)]
     pub builtin: Vec<Spanned<String>>,
-    /// Car scenarios (.json), a TPCAP case (.csv) or MovingAI scenarios (.scen), relative to the
+    /// Car scenarios (.json), a TPCAP case (.csv) or `MovingAI` scenarios (.scen), relative to the
     /// campaign file.
     pub file: Option<Spanned<String>>,
     /// Which of the scenarios: ids of the file, or requests of the built-in maps.

@@ -18,9 +18,9 @@ use std::time::Duration;
 use xxhash_rust::xxh3::xxh3_128;
 
 /// Time for a program to say who it is.
-const WITHIN_VERSION: Duration = Duration::from_secs(60);
+const WITHIN_VERSION: Duration = Duration::from_mins(1);
 /// Time for a run without a deadline.
-const WITHIN: Duration = Duration::from_secs(600);
+const WITHIN: Duration = Duration::from_mins(10);
 /// Time beyond a deadline for starting, reading the map and printing the path.
 const GRACE: Duration = Duration::from_secs(30);
 
