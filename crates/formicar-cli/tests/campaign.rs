@@ -196,58 +196,60 @@ fn scenario_files_are_beside_the_campaign_file() {
     assert!(run.stdout.contains("left out: 0 and 1"), "{}", run.stdout);
 }
 
+/// What stands at the beginning of a file, and words of what is said of it.
+const MISTAKES: [(&str, &[&str]); 11] = [
+    ("sedes = 3\n", &["c.toml, line 1, sedes", "`seeds`"]),
+    (
+        "seeds = \"a\"\n",
+        &["c.toml, line 1, seeds", "a count from 1"],
+    ),
+    (
+        "vehicles = [\"own\",\n \"tank\"]\n",
+        &["line 2, vehicles", "tank", "lei2020", "own"],
+    ),
+    (
+        "[[planner]]\nplanner = \"rrt\"\n",
+        &["line 2, planner", "rrt", "hybrid-astar"],
+    ),
+    (
+        "[[planner]]\nplanner = \"astar\"\n[planner.config.hybrid_astar]\nwieght = 2\n",
+        &[
+            "line 4, wieght",
+            "hybrid_astar.wieght",
+            "hybrid_astar.weight",
+        ],
+    ),
+    (
+        "[[planner]]\nplanner = \"astar\"\nset = [\n  \"hybrid_astar.weight=0\",\n]\n",
+        &["line 4, set", "weight"],
+    ),
+    (
+        "[[planner]]\nplanner = \"hybrid-astar\"\n[planner.config.hybrid_astar]\nweight = 0\n",
+        &["line 4, weight", "hybrid_astar.weight"],
+    ),
+    (
+        "[[planner]]\nplanner = \"astar\"\nconfig = 3\n",
+        &["line 3, config", "a table"],
+    ),
+    (
+        "[[scenarios]]\nbuiltin = [\"nowhere\"]\n",
+        &["line 2, builtin", "nowhere", "narrow"],
+    ),
+    (
+        "[[scenarios]]\nfile = \"no.json\"\n",
+        &["line 2, file", "no.json"],
+    ),
+    (
+        "[[scenarios]]\nbuiltin = [\"narrow-junction\"]\nids = [\"x\"]\n",
+        &["line 3, ids", "\"x\"", "quarter-turn"],
+    ),
+];
+
 #[test]
 fn wrong_campaigns_name_file_line_key_and_what_is_allowed() {
     let room = Room::new();
     let good = "[[scenarios]]\nbuiltin = [\"narrow-junction\"]\n";
-    let cases: [(&str, &[&str]); 11] = [
-        ("sedes = 3\n", &["c.toml, line 1, sedes", "`seeds`"]),
-        (
-            "seeds = \"a\"\n",
-            &["c.toml, line 1, seeds", "a count from 1"],
-        ),
-        (
-            "vehicles = [\"own\",\n \"tank\"]\n",
-            &["line 2, vehicles", "tank", "lei2020", "own"],
-        ),
-        (
-            "[[planner]]\nplanner = \"rrt\"\n",
-            &["line 2, planner", "rrt", "hybrid-astar"],
-        ),
-        (
-            "[[planner]]\nplanner = \"astar\"\n[planner.config.hybrid_astar]\nwieght = 2\n",
-            &[
-                "line 4, wieght",
-                "hybrid_astar.wieght",
-                "hybrid_astar.weight",
-            ],
-        ),
-        (
-            "[[planner]]\nplanner = \"astar\"\nset = [\n  \"hybrid_astar.weight=0\",\n]\n",
-            &["line 4, set", "weight"],
-        ),
-        (
-            "[[planner]]\nplanner = \"hybrid-astar\"\n[planner.config.hybrid_astar]\nweight = 0\n",
-            &["line 4, weight", "hybrid_astar.weight"],
-        ),
-        (
-            "[[planner]]\nplanner = \"astar\"\nconfig = 3\n",
-            &["line 3, config", "a table"],
-        ),
-        (
-            "[[scenarios]]\nbuiltin = [\"nowhere\"]\n",
-            &["line 2, builtin", "nowhere", "narrow"],
-        ),
-        (
-            "[[scenarios]]\nfile = \"no.json\"\n",
-            &["line 2, file", "no.json"],
-        ),
-        (
-            "[[scenarios]]\nbuiltin = [\"narrow-junction\"]\nids = [\"x\"]\n",
-            &["line 3, ids", "\"x\"", "quarter-turn"],
-        ),
-    ];
-    for (text, words) in cases {
+    for (text, words) in MISTAKES {
         room.write("c.toml", format!("{text}{good}"));
         bench(&room, "s.sqlite").assert_refused(words);
     }
@@ -295,6 +297,8 @@ fn what_is_worse_is_told() {
         "--fail-on-lost",
     ]);
     assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
+    let run = compare(&["much.sqlite", "much.csv", "--results-only"]);
+    assert!(run.stdout.contains("| length m |") && !run.stdout.contains("| query ms |"));
     let run = compare(&["much.sqlite", "little.sqlite", "--json", "--out", "cmp"]);
     assert_eq!(run.code, 0);
     assert_eq!(run.json()["duels"][0]["findings"][0]["metric"], "success");

@@ -24,7 +24,48 @@ fn a_quick_reproduction_writes_rows_tables_and_the_machine() {
     assert!(summary.contains("| zhang2016 | 3/3 | 3 |"), "{summary}");
     assert!(summary.contains("| wang2019 | 3/3 | 0 |"), "{summary}");
     assert!(read("MACHINE.md").contains("| formicar |"));
+    // Three seeds are too few to say anything.
+    assert!(summary.contains("too few runs") && !summary.contains("| holds |"));
+    let log = read("ompl-wang-aisles.log");
+    assert!(log.starts_with("formicar version ") && log.contains("\n7 planners\nwang2019\n"));
+    let report: serde_json::Value = serde_json::from_str(&read("report.json")).unwrap();
+    assert_eq!(report["name"], "wang2019");
+    // A row per iteration of three planners on three maps, three seeds each.
+    assert_eq!(read("courses.csv").lines().count(), 1 + 3 * 3 * 3 * 200);
     assert_eq!(room.run(&["reproduce", "nobody"]).code, 2);
+    let no_jobs = room.run(&["reproduce", "wang2019", "--jobs", "0"]);
+    assert_eq!(no_jobs.code, 2);
+    assert!(
+        no_jobs
+            .stderr
+            .contains("0 is not a whole number from 1 to 256")
+    );
+}
+
+#[test]
+fn jobs_change_no_number_but_times() {
+    let room = Room::new();
+    let rows = |jobs: &str| {
+        let args = [
+            "reproduce",
+            "wang2019",
+            "--quick",
+            "--jobs",
+            jobs,
+            "--out",
+            jobs,
+        ];
+        assert_eq!(room.run(&args).code, 0);
+        let path = room.path(jobs).join("wang2019/results.csv");
+        let text = std::fs::read_to_string(path).unwrap();
+        // The last two columns are times.
+        let untimed = |line: &str| {
+            let fields: Vec<&str> = line.split(',').collect();
+            fields[..fields.len() - 2].join(",")
+        };
+        text.lines().map(untimed).collect::<Vec<_>>()
+    };
+    assert_eq!(rows("1"), rows("3"));
 }
 
 /// The numbers of a page by name.

@@ -1,6 +1,7 @@
 //! What an experiment is made of.
 
-use crate::trial::Trial;
+use crate::parallel;
+use crate::trial::{Run, Trial};
 use anyhow::{Context, Result};
 use formicar::map::OccupancyGrid;
 use formicar::map::builtin::BuiltinMap;
@@ -14,7 +15,7 @@ use std::path::PathBuf;
 pub struct Scale {
     /// Runs of each variant on each map, with the seeds 0 to `n_seeds` - 1.
     pub n_seeds: u64,
-    /// Runs of each method where methods are compared, with the seeds from 0 on.
+    /// Runs of each method on further scenarios, with the seeds from 0 on.
     pub n_runs: u64,
     /// Repetitions of each timing.
     pub n_timings: usize,
@@ -46,6 +47,8 @@ pub struct Setup {
     pub scale: Scale,
     /// Folder of data sets; what is not there is passed over.
     pub data: PathBuf,
+    /// Runs at a time. Results do not depend on it; times do.
+    pub n_jobs: usize,
 }
 
 /// A configuration with a name.
@@ -117,17 +120,19 @@ impl Ground {
 pub(crate) fn run_all(
     grounds: &[Ground],
     variants: impl Fn(&Ground) -> Vec<Variant>,
-    scale: Scale,
+    setup: &Setup,
     tell: &mut dyn FnMut(&str),
-) -> Result<Vec<Trial>> {
-    let mut trials = Vec::new();
+) -> Result<Vec<Run>> {
+    let mut runs = Vec::new();
     for ground in grounds {
         for variant in variants(ground) {
             tell(&format!("{}: {}", ground.map, variant.name));
-            for seed in 0..scale.n_seeds {
-                trials.push(Trial::run(ground, &variant, seed)?);
-            }
+            let n_seeds = setup.scale.n_seeds as usize;
+            let of_variant = parallel::map(setup.n_jobs, n_seeds, |seed| {
+                Trial::run(ground, &variant, seed as u64)
+            });
+            runs.extend(of_variant?);
         }
     }
-    Ok(trials)
+    Ok(runs)
 }

@@ -6,10 +6,15 @@
 //! Markdown and as LaTeX.
 
 pub mod campaign;
+pub mod claims;
 pub mod compare;
+mod correspondence;
+mod exhibit;
 mod experiment;
 mod lei2020;
 mod li2024;
+mod parallel;
+mod parameters;
 mod replanning;
 pub mod report;
 mod reproduction;
@@ -19,6 +24,8 @@ pub mod standing;
 pub mod statistics;
 pub mod stress;
 mod trial;
+mod trial_log;
+mod trials;
 pub mod tuning;
 mod wang2019;
 

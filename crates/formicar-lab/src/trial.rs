@@ -7,11 +7,11 @@ use formicar::map::{BitGrid, Cell, MoveMasks};
 use formicar::numeric::Seed;
 use formicar::path::GridPath;
 use formicar::planner::{Outcome, Planner, Stages};
-use formicar::progress::Limits;
+use formicar::progress::{Event, IterationRecord, Limits, Observer};
 use formicar::search::GoalField;
 use serde::Serialize;
 use std::f64::consts::SQRT_2;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// What a run came to; lengths of the ants' way are in cells, a diagonal step counting sqrt(2).
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -50,17 +50,95 @@ pub struct Trial {
     pub length_m: Option<f64>,
     /// Its least clearance, metres.
     pub min_clearance_m: Option<f64>,
+    /// Length of the best way after a tenth of the iterations that a run may have.
+    pub early_length_cells: Option<f64>,
+    /// Standard deviation of the lengths of each iteration's best way over the second half of the
+    /// run: how much the ants still try.
+    pub late_spread_cells: Option<f64>,
     /// The query in all: layers, colony, smoothing, judge; milliseconds.
     pub query_ms: f64,
+    /// The colony alone, milliseconds.
+    pub search_ms: f64,
+}
+
+/// A run with its course.
+#[derive(Clone, Debug)]
+pub(crate) struct Run {
+    /// What it came to.
+    pub(crate) trial: Trial,
+    /// How it came about.
+    pub(crate) course: Vec<Moment>,
+}
+
+/// What stood after an iteration; lengths in cells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Moment {
+    /// Iterations done.
+    pub(crate) iteration: u32,
+    /// Ants sent out so far.
+    pub(crate) n_ants: u64,
+    /// Time since the colony set out.
+    pub(crate) ms: f64,
+    /// Length of the best way so far.
+    pub(crate) best_so_far_length: Option<f64>,
+    /// Length of the iteration's best way.
+    pub(crate) best_length: Option<f64>,
+    /// Mean length of the ways that arrived.
+    pub(crate) mean_length: Option<f64>,
+    /// Evaporation.
+    pub(crate) rho: f64,
+}
+
+/// Notes every iteration and when it ended.
+struct Clock {
+    begun: Instant,
+    search_begun: Duration,
+    course: Vec<Moment>,
+}
+
+impl Observer for Clock {
+    fn on_event(&mut self, event: &Event) {
+        match event {
+            Event::SearchStarted => self.search_begun = self.begun.elapsed(),
+            Event::Iteration(view) => self.note(view.record),
+            _ => {}
+        }
+    }
+}
+
+impl Clock {
+    fn note(&mut self, record: &IterationRecord) {
+        if record.iteration == 0 {
+            // A planner that tries again begins anew.
+            self.course.clear();
+        }
+        let n_before = self.course.last().map_or(0, |last| last.n_ants);
+        let since = self.begun.elapsed().saturating_sub(self.search_begun);
+        self.course.push(Moment {
+            iteration: record.iteration + 1,
+            n_ants: n_before + u64::from(record.n_ants),
+            ms: since.as_secs_f64() * 1e3,
+            best_so_far_length: record.best_so_far_length,
+            best_length: record.best_length,
+            mean_length: record.mean_length,
+            rho: record.rho,
+        });
+    }
 }
 
 impl Trial {
     /// Runs a variant on a ground.
-    pub(crate) fn run(ground: &Ground, variant: &Variant, seed: u64) -> Result<Self> {
+    pub(crate) fn run(ground: &Ground, variant: &Variant, seed: u64) -> Result<Run> {
         let config = variant.config.clone();
         let mut planner = Planner::new(&ground.grid, ground.vehicle.clone(), config)?;
+        let n_tenth = variant.config.colony.n_iterations.div_ceil(10);
         let begun = Instant::now();
-        let outcome = planner.plan(&ground.request, Seed(seed), &mut ())?;
+        let mut clock = Clock {
+            begun,
+            search_begun: Duration::ZERO,
+            course: Vec::new(),
+        };
+        let outcome = planner.plan(&ground.request, Seed(seed), &mut clock)?;
         let query_ms = begun.elapsed().as_secs_f64() * 1e3;
         let stages = outcome.stages();
         // Where obstacle expansion covers an end no colony sets out.
@@ -72,7 +150,8 @@ impl Trial {
             Outcome::NotFound(_) => None,
         };
         let obstacles = ground.grid.lethal_cells();
-        Ok(Self {
+        let course = clock.course;
+        let trial = Self {
             map: ground.map.clone(),
             variant: variant.name.clone(),
             seed,
@@ -90,9 +169,28 @@ impl Trial {
             arrived_share: arrived_share(history),
             length_m: plan.map(|plan| plan.metrics.length_m),
             min_clearance_m: plan.map(|plan| plan.certificate.min_clearance_m),
+            early_length_cells: early_length(&course, n_tenth),
+            late_spread_cells: late_spread(&course),
             query_ms,
-        })
+            search_ms: course.last().map_or(0.0, |last| last.ms),
+        };
+        Ok(Run { trial, course })
     }
+}
+
+/// The best length after so many iterations, or at the end of a shorter run.
+fn early_length(course: &[Moment], n_iterations: u32) -> Option<f64> {
+    let n_noted = course.partition_point(|moment| moment.iteration <= n_iterations);
+    course.get(n_noted.checked_sub(1)?)?.best_so_far_length
+}
+
+fn late_spread(course: &[Moment]) -> Option<f64> {
+    let late = course[course.len() / 2..].iter();
+    let lengths: Vec<f64> = late.filter_map(|moment| moment.best_length).collect();
+    let n = lengths.len() as f64;
+    let mean = lengths.iter().sum::<f64>() / n;
+    let squares: f64 = lengths.iter().map(|length| (length - mean).powi(2)).sum();
+    (lengths.len() > 1).then(|| (squares / (n - 1.0)).sqrt())
 }
 
 fn steps(path: &GridPath) -> impl Iterator<Item = (i64, i64)> + '_ {
@@ -148,7 +246,7 @@ fn n_to_1_percent(history: &History) -> Option<u32> {
 }
 
 fn arrived_share(history: &History) -> f64 {
-    let sum = |of: fn(&formicar::progress::IterationRecord) -> u32| {
+    let sum = |of: fn(&IterationRecord) -> u32| {
         let values = history.iterations.iter().map(of).map(f64::from);
         values.sum::<f64>()
     };
@@ -158,6 +256,31 @@ fn arrived_share(history: &History) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn courses_are_measured() {
+        let moment = |iteration: u32, best: f64, length: f64| Moment {
+            iteration,
+            n_ants: 0,
+            ms: 0.0,
+            best_so_far_length: Some(best),
+            best_length: Some(length),
+            mean_length: None,
+            rho: 0.5,
+        };
+        let course = [
+            moment(1, 9.0, 9.0),
+            moment(2, 7.0, 7.0),
+            moment(3, 6.0, 6.0),
+            moment(4, 6.0, 8.0),
+        ];
+        assert_eq!(early_length(&course, 2), Some(7.0));
+        assert_eq!(early_length(&course, 9), Some(6.0));
+        assert_eq!(early_length(&[], 2), None);
+        // Of 6 and 8.
+        assert_eq!(late_spread(&course), Some(2.0_f64.sqrt()));
+        assert_eq!(late_spread(&course[..1]), None);
+    }
 
     #[test]
     fn paths_are_measured() {

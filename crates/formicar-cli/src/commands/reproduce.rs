@@ -26,9 +26,23 @@ pub(crate) struct ReproduceArgs {
     #[arg(long)]
     pub(crate) quick: bool,
 
+    /// Runs at a time. Results are the same; times are those of runs side by side.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = jobs)]
+    pub(crate) jobs: usize,
+
     /// Folder of data sets, of which `li2024` uses `car/hood_800x500.json` where it is there.
     #[arg(long, value_name = "DIR", default_value = "../shared/data", value_hint = ValueHint::DirPath)]
     pub(crate) data: PathBuf,
+}
+
+/// More runs at a time than this are a slip.
+const MAX_JOBS: usize = 256;
+
+fn jobs(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(n @ 1..=MAX_JOBS) => Ok(n),
+        _ => Err(format!("{text} is not a whole number from 1 to {MAX_JOBS}")),
+    }
 }
 
 /// The papers that can be repeated.
@@ -81,6 +95,7 @@ pub(crate) fn run(args: &ReproduceArgs, out: &mut impl Write) -> Result<Ending, 
             Scale::FULL
         },
         data: args.data.clone(),
+        n_jobs: args.jobs,
     };
     for (name, experiment) in args.paper.experiments() {
         let bar = ProgressBar::new_spinner();
@@ -104,8 +119,8 @@ fn write_all(folder: &Path, reproduction: &Reproduction) -> Result<()> {
     fs::create_dir_all(folder).with_context(|| format!("{} cannot be made", folder.display()))?;
     let facts = machine::facts();
     let facts = facts.iter().map(|(name, value)| Fact::new(name, value));
-    let mut files = reproduction.files(&facts.collect::<Vec<_>>());
-    files.push(("MACHINE.md", machine::description()));
+    let mut files = reproduction.files(&facts.collect::<Vec<_>>())?;
+    files.push(("MACHINE.md".to_owned(), machine::description()));
     for (name, text) in files {
         let path = folder.join(name);
         write_atomically(&path, text.as_bytes())

@@ -4,7 +4,7 @@ use crate::files;
 use anyhow::{Context, Result};
 use formicar::map::format::write_atomically;
 use formicar_lab::campaign::{Stored, read_csv};
-use formicar_lab::report::{Fact, Page, Report, markdown, page};
+use formicar_lab::report::{Fact, Page, Report, json, markdown, page};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -54,7 +54,7 @@ pub(super) fn read(path: &Path) -> Result<Stored> {
     })
 }
 
-/// A report as a page and as Markdown: names and contents.
+/// A report as a page, as JSON and as Markdown: names and contents.
 pub(super) fn report_files(
     report: &Report,
     facts: &[Fact],
@@ -67,6 +67,7 @@ pub(super) fn report_files(
     };
     vec![
         ("index.html".to_owned(), page(&whole)),
+        ("report.json".to_owned(), json(&whole)),
         ("summary.md".to_owned(), markdown(report)),
     ]
 }

@@ -5,9 +5,11 @@
 //! each, one transaction a run, so that a kill loses nothing but the runs under way and a restart
 //! repeats none that are over.
 
+mod charts;
 mod document;
 mod job;
 mod mistake;
+mod ompl;
 mod plan;
 mod record;
 mod report;
@@ -22,6 +24,7 @@ pub use job::{
     Contender, Job, Limits, OWN_VEHICLE, Place, RivalCommand, RowKey, Task, VehicleChoice,
 };
 pub use mistake::Text;
+pub use ompl::ompl_logs;
 pub use plan::{Campaign, ConfigRecord, Ground, PlannedRun};
 pub use record::{History, Improvement, ORIGIN_COLUMNS, Origin, Record, Told};
 pub use report::report;

@@ -2,8 +2,9 @@
 //!
 //! A section is a function here; [`report()`] lists them.
 
+use super::charts;
 use super::record::Record;
-use crate::compare::{Duel, METHOD, METRICS, Metric, SUCCESS, planners, runs_of};
+use crate::compare::{Duel, METHOD, METRICS, Metric, SUCCESS, Scope, planners, runs_of};
 use crate::report::{Field, Report, Section, Table};
 use crate::statistics::quartiles;
 use anyhow::Result;
@@ -13,7 +14,8 @@ use anyhow::Result;
 /// # Errors
 /// Scenarios of one name whose maps or vehicles are not the same.
 pub fn report(name: &str, records: &[Record]) -> Result<Report> {
-    let mut sections = vec![of_planners(records)];
+    let mut sections = vec![of_planners(records), charts::spreads(records)];
+    sections.extend(charts::convergence(records));
     sections.extend(beside_the_first(records)?);
     sections.push(of_scenarios(records));
     Ok(Report {
@@ -63,8 +65,13 @@ fn beside_the_first(records: &[Record]) -> Result<Vec<Section>> {
     };
     let of_first = runs_of(records, first);
     let sections = others.iter().map(|other| {
-        let duel = Duel::new(&of_first, &runs_of(records, other))?;
-        Ok(duel.section([first, other]))
+        let of_other = runs_of(records, other);
+        let duel = Duel::new(&of_first, &of_other, Scope::All)?;
+        let mut section = duel.section([first, other]);
+        section
+            .blocks
+            .extend(charts::differences([&of_first, &of_other]));
+        Ok(section)
     });
     sections.collect()
 }
@@ -99,7 +106,7 @@ fn of_scenarios(records: &[Record]) -> Section {
 }
 
 /// Scenario, vehicle, motion mode: the last two are named where they are not all the same.
-fn place(record: &Record) -> [&str; 3] {
+pub(super) fn place(record: &Record) -> [&str; 3] {
     ["scenario", "vehicle", "motion"].map(|column| record.get(column))
 }
 

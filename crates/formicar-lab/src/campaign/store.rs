@@ -4,6 +4,7 @@
 //! longer than a commit, so nothing is gained by a log, and what is left behind is one file. After
 //! a kill the next opening rolls back the run that was being written and nothing else.
 
+use super::job::Job;
 use super::plan::{Campaign, ConfigRecord};
 use super::record::{ORIGIN_COLUMNS, Origin, Record};
 use super::row::{COLUMNS, Row};
@@ -11,7 +12,7 @@ use super::table::to_csv;
 use anyhow::{Context, Result, anyhow, bail};
 use rusqlite::types::{Value, ValueRef};
 use rusqlite::{Connection, OpenFlags, OptionalExtension, params_from_iter};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 
@@ -53,6 +54,8 @@ pub struct Stored {
     pub records: Vec<Record>,
     /// The configurations of its planners.
     pub configs: Vec<ConfigRecord>,
+    /// What the processes of its runs are told, by key; none of a table.
+    pub jobs: BTreeMap<String, Job>,
 }
 
 impl Store {
@@ -324,7 +327,19 @@ fn stored(connection: &Connection) -> Result<Stored> {
         n_planned: n_planned as usize,
         records: records(connection)?,
         configs: configs(connection)?,
+        jobs: jobs(connection)?,
     })
+}
+
+fn jobs(connection: &Connection) -> Result<BTreeMap<String, Job>> {
+    let mut statement = connection.prepare("SELECT run, job FROM planned")?;
+    let mut rows = statement.query([])?;
+    let mut jobs = BTreeMap::new();
+    while let Some(row) = rows.next()? {
+        let text: String = row.get(1)?;
+        jobs.insert(row.get(0)?, serde_json::from_str(&text)?);
+    }
+    Ok(jobs)
 }
 
 fn configs(connection: &Connection) -> Result<Vec<ConfigRecord>> {

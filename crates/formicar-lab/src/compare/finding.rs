@@ -1,6 +1,6 @@
 //! What a metric says about two sides.
 
-use super::metric::{Better, Kind, METRICS, Metric, SUCCESS};
+use super::metric::{Better, Kind, METRICS, Metric, SUCCESS, Scope};
 use super::pairs::{Pair, Pairs};
 use crate::statistics::{bootstrap_median, holm, quantile, vargha_delaney_a, wilcoxon};
 use formicar::numeric::Seed;
@@ -62,29 +62,28 @@ pub struct Finding {
     pub verdict: Verdict,
 }
 
-/// Findings of all metrics, the probabilities adjusted over them.
-pub(super) fn findings(pairs: &Pairs) -> Vec<Finding> {
+/// Findings of the metrics in question, the probabilities adjusted over them.
+pub(super) fn findings(pairs: &Pairs, scope: Scope) -> Vec<Finding> {
     let is_like = pairs.unlike_measurements().is_none();
-    let comparable = |metric: &&Metric| is_like || metric.kind == Kind::Result;
-    let values: Vec<Values> = METRICS
-        .iter()
-        .map(|m| Values::new(m, &pairs.pairs))
+    let comparable = |metric: &Metric| is_like || metric.kind == Kind::Result;
+    let metrics = METRICS.iter().filter(|metric| scope.holds(metric));
+    let both: Vec<(&Metric, Values)> = metrics
+        .map(|metric| (metric, Values::new(metric, &pairs.pairs)))
         .collect();
-    let tested = METRICS.iter().zip(&values).filter(|(m, _)| comparable(m));
+    let tested = both.iter().filter(|(metric, _)| comparable(metric));
     let raw: Vec<f64> = tested.filter_map(|(_, values)| values.p()).collect();
     let mut adjusted = holm(&raw).into_iter();
-    let both = METRICS.iter().zip(&values);
-    both.map(|(metric, values)| {
-        let is_tested = comparable(&metric) && values.p().is_some();
+    let findings = both.iter().map(|(metric, values)| {
+        let is_tested = comparable(metric) && values.p().is_some();
         let p = is_tested.then(|| adjusted.next()).flatten();
-        let verdict = if comparable(&metric) && !values.pairs.is_empty() {
+        let verdict = if comparable(metric) && !values.pairs.is_empty() {
             values.verdict(metric, p)
         } else {
             Verdict::NotComparable
         };
         values.finding(metric, p, verdict)
-    })
-    .collect()
+    });
+    findings.collect()
 }
 
 /// The values of a metric, pair by pair, by scenario.

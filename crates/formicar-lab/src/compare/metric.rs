@@ -22,6 +22,22 @@ pub enum Kind {
     Measurement,
 }
 
+/// Which metrics are compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// All of them.
+    All,
+    /// Those that depend on the run alone: a busy machine changes none of them.
+    Results,
+}
+
+impl Scope {
+    /// Whether a metric is compared.
+    pub fn holds(self, metric: &Metric) -> bool {
+        self == Self::All || metric.kind == Kind::Result
+    }
+}
+
 /// A metric of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Metric {

@@ -7,7 +7,7 @@ mod pairs;
 mod tables;
 
 pub use finding::{Finding, Verdict};
-pub use metric::{Better, Kind, METRICS, Metric, SUCCESS};
+pub use metric::{Better, Kind, METRICS, Metric, SUCCESS, Scope};
 pub use tables::METHOD;
 
 use crate::campaign::Record;
@@ -57,12 +57,12 @@ impl Comparison {
     ///
     /// # Errors
     /// Sides without a planner or a run in common; scenarios of one name that are not the same.
-    pub fn new(a: &Side, b: &Side) -> Result<Self> {
+    pub fn new(a: &Side, b: &Side, scope: Scope) -> Result<Self> {
         let of_sides = [planners(&a.records), planners(&b.records)];
         let mut duels = Vec::new();
         for [of_a, of_b] in opponents(&of_sides) {
             let (of_a, of_b) = (runs_of(&a.records, of_a), runs_of(&b.records, of_b));
-            duels.push(Duel::new(&of_a, &of_b)?);
+            duels.push(Duel::new(&of_a, &of_b, scope)?);
         }
         if duels.is_empty() {
             let [of_a, of_b] = of_sides.map(|names| names.join(", "));
@@ -103,11 +103,11 @@ impl Duel {
     ///
     /// # Errors
     /// Scenarios of one name that are not the same.
-    pub fn new(a: &[&Record], b: &[&Record]) -> Result<Self> {
+    pub fn new(a: &[&Record], b: &[&Record], scope: Scope) -> Result<Self> {
         let pairs = Pairs::new(a, b)?;
         let planner = |of: &[&Record]| of.first().map_or("", |r| r.get("planner")).to_owned();
         let notes = [
-            pairs.unlike_measurements(),
+            pairs.unlike_measurements().filter(|_| scope == Scope::All),
             pairs.unlike_limits(),
             pairs.repeats(),
         ];
@@ -122,7 +122,7 @@ impl Duel {
             n_alone: pairs.n_alone,
             lost: names([true, false]),
             gained: names([false, true]),
-            findings: finding::findings(&pairs),
+            findings: finding::findings(&pairs, scope),
             notes: notes.into_iter().flatten().collect(),
         })
     }

@@ -86,7 +86,8 @@ impl<'a> Pairs<'a> {
         let scenarios: BTreeSet<_> = repeats.map(|pair| scenario(pair.a)).collect();
         (!scenarios.is_empty()).then(|| {
             format!(
-                "On {} scenarios the seed changes nothing on either side: there one seed counts,                  but for times and memory.",
+                "On {} scenarios the seed changes nothing on either side: there one seed counts, \
+                 but for times and memory.",
                 scenarios.len()
             )
         })

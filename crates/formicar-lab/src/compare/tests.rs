@@ -31,7 +31,7 @@ fn base(i: usize) -> serde_json::Value {
     json!({
         "length_m": 50.0 + x, "query_s": 0.1 + 0.001 * x, "steps": 100 + i, "n_cusps": 0,
         "min_clearance_m": 0.3, "peak_rss_bytes": 30_000_000, "first_feasible_s": 0.01,
-        "cost_m": 60.0 + x,
+        "cost_m": 60.0 + x, "first_steps": 10,
     })
 }
 
@@ -41,7 +41,7 @@ fn other(i: usize) -> serde_json::Value {
     json!({
         "length_m": 55.0 + 1.1 * x, "query_s": 0.11 + 0.0011 * x, "steps": 100 + i, "n_cusps": 0,
         "min_clearance_m": 0.31, "peak_rss_bytes": 30_100_000, "first_feasible_s": 0.01,
-        "cost_m": 60.0 + x,
+        "cost_m": 60.0 + x, "first_steps": 10,
     })
 }
 
@@ -56,7 +56,7 @@ fn failing(i: usize) -> serde_json::Value {
 }
 
 fn compare(a: &Side, b: &Side) -> Comparison {
-    Comparison::new(a, b).unwrap()
+    Comparison::new(a, b, Scope::All).unwrap()
 }
 
 fn verdict(comparison: &Comparison, metric: &str) -> Verdict {
@@ -112,6 +112,17 @@ fn lost_runs_are_named_and_left_out_of_paths() {
 }
 
 #[test]
+fn results_alone_say_nothing_of_times() {
+    let (a, b) = (side("a", "p", base), side("b", "p", other));
+    let found = Comparison::new(&a, &b, Scope::Results).unwrap();
+    let findings = found.duels[0].findings.iter();
+    let names: Vec<&str> = findings.map(|finding| finding.metric).collect();
+    assert_eq!(names.len(), 7);
+    assert!(!names.contains(&"query ms") && !names.contains(&"memory MB"));
+    assert_eq!(verdict(&found, "length m"), Verdict::Worse);
+}
+
+#[test]
 fn seeds_that_change_nothing_count_once() {
     let still = |i: usize| {
         let mut values = base(i - i % 2);
@@ -149,7 +160,7 @@ fn sides_that_have_nothing_in_common_are_refused() {
     assert_eq!(compare(&a, &side("b", "q", base)).duels.len(), 1);
     let mut two = side("b", "q", base);
     two.records.extend(side("b", "r", base).records);
-    let told = |b: &Side| Comparison::new(&a, b).unwrap_err().to_string();
+    let told = |b: &Side| Comparison::new(&a, b, Scope::All).unwrap_err().to_string();
     assert!(told(&two).contains("a has p; b has q, r"));
     let mut moved = side("b", "p", base);
     for record in &mut moved.records {

@@ -2,20 +2,24 @@
 
 use super::drive::{Exhibit, Job};
 use super::methods::Generations;
+use crate::report::{self, BandPanel, Bands, ScaleKind};
 use crate::statistics::quartiles;
 use anyhow::Result;
 use formicar::geometry::Point2;
 use formicar::map::{BitGrid, DiagonalRule};
 use formicar::numeric::Seed;
 use formicar::planner::Planner;
-use formicar::progress::{AntWays, Event, Observer};
+use formicar::progress::{AntWays, Event, IterationRecord, Observer};
 use formicar::render::{Axis, Chart, Color, Dash, Picture, Ribbon, Series, palette};
 use formicar::smoothing::RedundantNodes;
+use std::time::{Duration, Instant};
 
 /// What the seeds of a method had by generation; a run that stopped keeps its last values.
 #[derive(Clone, Debug)]
 pub(super) struct Course {
     method: String,
+    /// The lowest cost so far of each run, with paths tried and milliseconds.
+    progress: Vec<Vec<Progress>>,
     /// Quartiles of the mean cost.
     mean: Vec<Option<[f64; 3]>>,
     /// Quartiles of the lowest cost so far.
@@ -24,6 +28,9 @@ pub(super) struct Course {
 
 /// Mean and lowest so far.
 type Generation = [Option<f64>; 2];
+
+/// Paths tried, milliseconds, and the lowest cost so far.
+type Progress = [f64; 3];
 
 /// Where the costs of a generation come from.
 enum Source<'a> {
@@ -51,42 +58,67 @@ pub(super) fn watch(
         },
         _ => return Ok(None),
     };
-    let mut runs = Vec::new();
+    let (mut runs, mut progress) = (Vec::new(), Vec::new());
     for seed in 0..n_seeds {
         let config = job.variant.config.clone();
+        let begun = Instant::now();
         let mut planner = Planner::new(&job.ground.grid, job.ground.vehicle.clone(), config)?;
         let mut watcher = Watcher {
             source: &source,
             generations: Vec::new(),
+            progress: Vec::new(),
+            n_tried: 0,
+            begun,
+            watched: Duration::ZERO,
         };
         planner.plan(&job.ground.request, Seed(seed), &mut watcher)?;
         runs.push(watcher.generations);
+        progress.push(watcher.progress);
     }
-    Ok(Course::new(&job.variant.name, &runs))
+    let course = Course::new(&job.variant.name, &runs);
+    Ok(course.map(|course| Course { progress, ..course }))
 }
 
 struct Watcher<'a> {
     source: &'a Source<'a>,
     generations: Vec<Generation>,
+    progress: Vec<Progress>,
+    n_tried: u64,
+    begun: Instant,
+    /// Time that watching itself took.
+    watched: Duration,
 }
 
 impl Observer for Watcher<'_> {
     fn on_event(&mut self, event: &Event) {
-        if let Some((iteration, [mean, best])) = self.source.costs(event) {
-            if iteration == 0 {
-                // A method that tries again begins anew.
-                self.generations.clear();
-            }
-            let before = self.generations.last().and_then(|last| last[1]);
-            let lowest = [before, best].into_iter().flatten().reduce(f64::min);
-            self.generations.push([mean, lowest]);
+        let after = self.begun.elapsed().saturating_sub(self.watched);
+        if let Some((record, costs)) = self.source.costs(event) {
+            self.note(record, costs, after);
         }
+        self.watched = self.begun.elapsed().saturating_sub(after);
+    }
+}
+
+impl Watcher<'_> {
+    fn note(&mut self, record: &IterationRecord, [mean, best]: Generation, after: Duration) {
+        if record.iteration == 0 {
+            // A method that tries again begins anew.
+            self.generations.clear();
+            self.progress.clear();
+        }
+        self.n_tried += u64::from(record.n_ants);
+        let before = self.generations.last().and_then(|last| last[1]);
+        let lowest = [before, best].into_iter().flatten().reduce(f64::min);
+        self.generations.push([mean, lowest]);
+        let ms = after.as_secs_f64() * 1e3;
+        let progress = lowest.map(|lowest| [self.n_tried as f64, ms, lowest]);
+        self.progress.extend(progress);
     }
 }
 
 impl Source<'_> {
-    /// Mean and least J of a generation, and its number; none of other events.
-    fn costs(&self, event: &Event) -> Option<(u32, Generation)> {
+    /// Mean and least J of a generation, and its record; none of other events.
+    fn costs<'b>(&self, event: &'b Event) -> Option<(&'b IterationRecord, Generation)> {
         let (record, ways) = match event {
             Event::Iteration(view) => (view.record, Some(&view.ways)),
             Event::Generation(view) => (view.record, None),
@@ -96,7 +128,7 @@ impl Source<'_> {
             (Self::Ways { job, blocked, rule }, Some(ways)) => of_ways(job, ways, (blocked, *rule)),
             _ => [record.mean_cost, record.best_cost],
         };
-        Some((record.iteration, costs))
+        Some((record, costs))
     }
 }
 
@@ -130,6 +162,7 @@ impl Course {
         let lowest: Vec<_> = course(1);
         lowest.iter().any(Option::is_some).then(|| Self {
             method: method.to_owned(),
+            progress: Vec::new(),
             mean: course(0),
             lowest,
         })
@@ -178,6 +211,41 @@ pub(super) fn picture(courses: &[Course]) -> Picture {
             chart("lowest cost J so far", |course| &course.lowest),
         ],
         ..Picture::default()
+    }
+}
+
+/// The lowest cost so far by generation, by paths tried and by time.
+pub(super) fn bands(courses: &[Course]) -> Bands {
+    let by_generation = |course: &Course| report::Course {
+        name: course.method.clone(),
+        points: points(&course.lowest)
+            .map(|(x, [low, median, high])| [x, low, median, high])
+            .collect(),
+    };
+    let by = |which: usize| {
+        move |course: &Course| {
+            let run = |run: &Vec<Progress>| run.iter().map(|at| [at[which], at[2]]).collect();
+            let runs: Vec<Vec<[f64; 2]>> = course.progress.iter().map(run).collect();
+            report::Course::of_runs(&course.method, &runs, ScaleKind::Log)
+        }
+    };
+    let panel = |x: &str, x_scale, of: &dyn Fn(&Course) -> report::Course| BandPanel {
+        x: x.to_owned(),
+        x_scale,
+        courses: courses.iter().map(of).collect(),
+    };
+    Bands {
+        caption: "Lowest cost J so far, medians and quartiles over the seeds, by generation, by \
+                  paths tried (ants, or individuals) and by time since the map set-up began, less \
+                  the time that watching took."
+            .to_owned(),
+        quantity: "lowest J so far".to_owned(),
+        y_scale: ScaleKind::Linear,
+        panels: vec![
+            panel("generation", ScaleKind::Linear, &by_generation),
+            panel("paths tried", ScaleKind::Log, &by(0)),
+            panel("time, ms", ScaleKind::Log, &by(1)),
+        ],
     }
 }
 

@@ -98,6 +98,7 @@ mod tests {
         let setup = Setup {
             scale: Scale::QUICK,
             data: PathBuf::from("nowhere"),
+            n_jobs: 1,
         };
         let missing = hood(&setup).unwrap().unwrap_err();
         assert!(missing.ends_with("car/hood_800x500.json"));

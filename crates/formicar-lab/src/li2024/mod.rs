@@ -1,6 +1,7 @@
 //! Li et al. 2024: FACO and its six rivals on a neighborhood of 800 x 500 cells.
 
 mod ablation;
+mod best;
 mod claims;
 mod drive;
 mod figures;
@@ -10,13 +11,17 @@ mod group;
 mod methods;
 mod native;
 mod paper;
+mod pictures;
 mod scaling;
 mod tables;
 mod turns;
 
+use crate::correspondence::{self, NOT_MADE, Place};
 use crate::experiment::{Ground, Scale, Setup, Variant};
+use crate::parallel;
+use crate::parameters;
 use crate::report::{Block, Fact, Figure, Report, Section};
-use crate::reproduction::{Reproduction, configs_of, csv, facts_of, seeds};
+use crate::reproduction::{Reproduction, at_a_time, configs_of, csv, facts_of, seeds};
 use ablation::ABLATION;
 use anyhow::Result;
 use drive::{Drive, Exhibit, Job};
@@ -40,6 +45,7 @@ pub fn li2024(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproduction>
         ground: neighborhood()?,
         hood: hood(setup)?,
         scale: setup.scale,
+        n_jobs: setup.n_jobs,
     };
     plan.run(tell)
 }
@@ -52,6 +58,8 @@ struct Plan {
     /// The scenarios of the data set, or where they were looked for.
     hood: Result<Vec<Ground>, std::path::PathBuf>,
     scale: Scale,
+    /// Runs at a time.
+    n_jobs: usize,
 }
 
 /// What was found.
@@ -73,9 +81,8 @@ impl Plan {
                 let variant = Variant::of(method.planner);
                 let job = job(HOOD, (ground, shortest_m(ground)), &variant, method.native);
                 tell(&format!("{}: {}", ground.map, variant.name));
-                for seed in 0..self.scale.n_runs {
-                    findings.drives.push(job.run(seed)?.0);
-                }
+                let runs = self.runs(&job, self.scale.n_runs)?;
+                findings.drives.extend(runs.into_iter().map(|run| run.0));
             }
         }
         self.switch_terms_off(&mut findings, tell)?;
@@ -87,6 +94,11 @@ impl Plan {
         self.conclude(&findings)
     }
 
+    /// Runs of a job with the seeds from 0 on.
+    fn runs(&self, job: &Job, n_seeds: u64) -> Result<Vec<(Drive, Exhibit)>> {
+        parallel::map(self.n_jobs, n_seeds as usize, |seed| job.run(seed as u64))
+    }
+
     /// All methods on the built-in neighborhood: timed, then watched by generation.
     fn compare(&self, findings: &mut Findings, tell: &mut dyn FnMut(&str)) -> Result<()> {
         let route = (&self.ground, shortest_m(&self.ground));
@@ -95,8 +107,7 @@ impl Plan {
             let job = job(COMPARISON, route, &variant, method.native);
             tell(&format!("{}: {}", self.ground.map, variant.name));
             let mut first = None;
-            for seed in 0..self.scale.n_runs {
-                let (drive, exhibit) = job.run(seed)?;
+            for (drive, exhibit) in self.runs(&job, self.scale.n_seeds)? {
                 findings.drives.push(drive);
                 first.get_or_insert(exhibit);
             }
@@ -119,9 +130,8 @@ impl Plan {
         for variant in &self.ablation {
             tell(&format!("{}: {}", self.ground.map, variant.name));
             let job = job(ABLATION, route, variant, Native::Nodes);
-            for seed in 0..self.scale.n_seeds {
-                findings.drives.push(job.run(seed)?.0);
-            }
+            let runs = self.runs(&job, self.scale.n_seeds)?;
+            findings.drives.extend(runs.into_iter().map(|run| run.0));
         }
         Ok(())
     }
@@ -135,8 +145,10 @@ impl Plan {
             .collect();
         let of_methods = variants.iter().chain(&self.ablation);
         Ok(Reproduction {
-            report: self.report(findings),
+            report: self.report(findings)?,
             csv: csv(&findings.drives)?,
+            courses_csv: String::new(),
+            ompl_logs: Vec::new(),
             n_runs: findings.drives.len(),
             facts: [
                 facts_of(std::slice::from_ref(&self.ground)),
@@ -151,17 +163,20 @@ impl Plan {
 
     fn seeds(&self) -> Vec<Fact> {
         let (n_runs, n_seeds) = (seeds(self.scale.n_runs), seeds(self.scale.n_seeds));
-        let words = format!("{n_runs}; each term off: {n_seeds}");
-        vec![Fact::new("Seeds", words)]
+        let words = format!("{n_seeds}; costs by generation and the second neighborhood: {n_runs}");
+        vec![Fact::new("Seeds", words), at_a_time(self.n_jobs)]
     }
 
-    fn report(&self, findings: &Findings) -> Report {
+    fn report(&self, findings: &Findings) -> Result<Report> {
         let comparison = Comparison {
             drives: &findings.drives,
             methods: &self.methods,
             ground: &self.ground.map,
         };
+        let names: Vec<&str> = self.methods.iter().map(|m| m.planner.name()).collect();
+        let claims = claims::claims(&findings.drives, &names, &self.ground.map);
         let mut sections = vec![
+            claims.verdicts(),
             of_tables(
                 "Length, success and time: Table 1",
                 vec![comparison.lengths(), comparison.times()],
@@ -175,16 +190,27 @@ impl Plan {
                 ],
             ),
         ];
-        sections[0].blocks.push(Block::Text(paper::remark()));
+        sections[1].blocks.push(Block::Text(paper::remark()));
+        sections.push(pictures::spreads(
+            &findings.drives,
+            &names,
+            &self.ground.map,
+        ));
+        sections.extend(self.figures(findings));
         sections.extend(self.of_proposed(findings));
         sections.push(self.of_hood(findings));
-        sections.extend(self.figures(findings));
-        Report {
+        sections.push(claims.tests());
+        if let Some(subject) = scaling::subject(&self.methods) {
+            let own = Variant::of(subject.planner);
+            sections.push(parameters::section(parameters::LI2024, &own)?);
+        }
+        sections.push(correspondence::section(&PLACES));
+        Ok(Report {
             name: "li2024".to_owned(),
             title: "Li et al. 2024: FACO and its rivals".to_owned(),
             intro: self.intro(),
             sections,
-        }
+        })
     }
 
     fn intro(&self) -> String {
@@ -193,10 +219,10 @@ impl Plan {
              vehicle: start heading exact, goal heading any, {} runs per method. `certified` \
              counts runs whose path the judge certified for the whole swept body; everything else \
              counts as a failure. The paper's numbers are those of MATLAB on an i7-6500U, on a map \
-             of its own.",
+             of its own, ten runs per method. `astar` and `improved-astar` do not use the seed.",
             self.ground.map,
             shortest_m(&self.ground).unwrap_or_default(),
-            self.scale.n_runs
+            self.scale.n_seeds
         )
     }
 
@@ -205,10 +231,10 @@ impl Plan {
         let Some(subject) = scaling::subject(&self.methods) else {
             return Vec::new();
         };
-        let claims = claims::table(&findings.drives, &self.methods, &self.ground.map);
+        let best = best::table(&findings.drives, &self.methods, &self.ground.map);
         let growth = scaling::table(&findings.drives, subject.planner.name());
         vec![
-            Section::of_table("Beside the best of the others", claims),
+            Section::of_table("Beside the best of the others", best),
             ablation::section(&findings.drives, &self.ablation),
             Section::of_table("Growing maps", growth),
         ]
@@ -233,10 +259,13 @@ impl Plan {
         let part = figures::surroundings(&self.ground, &findings.exhibits);
         let paths = findings.exhibits.iter();
         let paths = paths.map(|exhibit| figures::path_figure(&self.ground, exhibit, part));
-        let mut sections = vec![Section {
-            heading: "Paths: figures 5 to 11".to_owned(),
-            blocks: paths.map(Block::Figure).collect(),
-        }];
+        let mut sections = vec![
+            pictures::map(&self.ground, &findings.exhibits, part),
+            Section {
+                heading: "Paths: figures 5 to 11".to_owned(),
+                blocks: paths.map(Block::Figure).collect(),
+            },
+        ];
         if !findings.courses.is_empty() {
             let figure = Figure {
                 caption: "Mean cost J of each generation, and the lowest so far, which the paper \
@@ -247,7 +276,10 @@ impl Plan {
             };
             sections.push(Section {
                 heading: "Cost by generation: figure 12".to_owned(),
-                blocks: vec![Block::Figure(figure)],
+                blocks: vec![
+                    Block::Figure(figure),
+                    Block::Bands(generations::bands(&findings.courses)),
+                ],
             });
         }
         sections
@@ -275,6 +307,51 @@ fn of_tables(heading: &str, tables: Vec<crate::report::Table>) -> Section {
         blocks: tables.into_iter().map(Block::Table).collect(),
     }
 }
+
+const PLACES: [Place; 14] = [
+    [
+        "Figure 1",
+        NOT_MADE,
+        "concept drawing: wheels, suspension and the turning circle",
+    ],
+    [
+        "Figure 2",
+        NOT_MADE,
+        "concept drawing: a footprint with its margin",
+    ],
+    [
+        "Figure 3",
+        NOT_MADE,
+        "concept drawing: turns between points of a path",
+    ],
+    [
+        "Figure 4",
+        "Map: figure 4",
+        "(a), (c) and (d) are photographs; of (b), the map, ours has the same size",
+    ],
+    ["Figure 5", "Paths: figures 5 to 11", "astar"],
+    ["Figure 6", "Paths: figures 5 to 11", "improved-astar"],
+    ["Figure 7", "Paths: figures 5 to 11", "ga"],
+    ["Figure 8", "Paths: figures 5 to 11", "aga"],
+    ["Figure 9", "Paths: figures 5 to 11", "aco"],
+    ["Figure 10", "Paths: figures 5 to 11", "acof"],
+    ["Figure 11", "Paths: figures 5 to 11", "faco2024"],
+    [
+        "Figure 12",
+        "Cost by generation: figure 12",
+        "mean and lowest J, and the lowest by paths tried and time",
+    ],
+    [
+        "Table 1",
+        "Length, success and time: Table 1",
+        "31 runs per method, not ten",
+    ],
+    [
+        "Table 2",
+        "Turns: Table 2",
+        "on the vertices of each method, and on equal steps of the certified curve",
+    ],
+];
 
 #[cfg(test)]
 mod tests;

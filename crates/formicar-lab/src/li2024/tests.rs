@@ -34,6 +34,7 @@ fn plan() -> Plan {
         ground: Ground::builtin("lei-map1").unwrap(),
         hood: Err("data/car/hood_800x500.json".into()),
         scale,
+        n_jobs: 2,
     }
 }
 
@@ -51,15 +52,15 @@ fn tables_and_figures_come_from_the_rows() {
             .any(|what| what == "lei-map1: lei2020, by generation"),
         "{told:?}"
     );
-    // Four methods with two seeds, two variants with three.
-    assert_eq!(reproduction.n_runs, 4 * 2 + 2 * 3);
+    // Four methods and two variants with three seeds.
+    assert_eq!(reproduction.n_runs, 4 * 3 + 2 * 3);
     assert_eq!(reproduction.csv.lines().count(), 1 + reproduction.n_runs);
     let report = &reproduction.report;
-    assert!(report.intro.contains("2 runs per method"));
+    assert!(report.intro.contains("3 runs per method"));
     let lengths = table(report, "length");
     assert_eq!(lengths.rows.len(), 4);
     let hybrid = &lengths.rows[1];
-    assert_eq!(hybrid[1], Field::Rate(2, 2));
+    assert_eq!(hybrid[1], Field::Rate(3, 3));
     let Field::Spread(Some([_, driven_m, _]), 2) = hybrid[4] else {
         panic!("{hybrid:?}")
     };
@@ -86,8 +87,8 @@ fn tables_and_figures_come_from_the_rows() {
             _ => None,
         })
         .collect();
-    // A path of each method, and the courses of both colonies.
-    assert_eq!(svgs.len(), 5);
+    // The map, all paths, a path of each method, and the courses of both colonies.
+    assert_eq!(svgs.len(), 7);
     assert!(svgs.iter().all(|figure| figure.svg.starts_with("<svg ")));
     assert_eq!(reproduction.configs.len(), 4 + 2);
 }

@@ -66,6 +66,8 @@ fn reproduction(
     Ok(Reproduction {
         report: tables::report(steps),
         csv: csv(steps)?,
+        courses_csv: String::new(),
+        ompl_logs: Vec::new(),
         n_runs: steps.len(),
         facts,
         configs: configs_of(pairs)?,

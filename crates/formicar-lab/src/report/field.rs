@@ -1,5 +1,6 @@
 //! What stands in a cell of a table.
 
+use super::Verdict;
 use crate::statistics::wilson_interval;
 
 /// A field of a table.
@@ -7,8 +8,12 @@ use crate::statistics::wilson_interval;
 pub enum Field {
     /// Words.
     Words(String),
+    /// How a claim fares.
+    Verdict(Verdict),
     /// A number with so many decimals; a dash for none.
     Number(Option<f64>, usize),
+    /// A probability: four decimals, or a power of ten where they would be noughts.
+    Probability(Option<f64>),
     /// A number with its interval, or a median with its quartiles: `[low, value, high]`.
     Spread(Option<[f64; 3]>, usize),
     /// So many of so many.
@@ -45,7 +50,12 @@ impl Field {
             named.into_iter().map(part).collect()
         };
         match *self {
-            Self::Words(_) | Self::Number(None, _) | Self::Spread(None, _) => Vec::new(),
+            Self::Words(_)
+            | Self::Verdict(_)
+            | Self::Number(None, _)
+            | Self::Probability(None)
+            | Self::Spread(None, _) => Vec::new(),
+            Self::Probability(Some(p)) => parts(vec![("", probability(p))]),
             Self::Number(Some(value), n) => parts(vec![("", decimal(value, n))]),
             Self::Spread(Some([low, value, high]), n) => parts(vec![
                 ("", decimal(value, n)),
@@ -69,7 +79,8 @@ impl Field {
     pub(super) fn laid_out(&self, parts: &[&str]) -> String {
         match (self, parts) {
             (Self::Words(words), _) => words.clone(),
-            (Self::Number(..), [value]) => (*value).to_owned(),
+            (Self::Verdict(verdict), _) => verdict.name().to_owned(),
+            (Self::Number(..) | Self::Probability(_), [value]) => (*value).to_owned(),
             (Self::Spread(..), [value, low, high]) => format!("{value} [{low}, {high}]"),
             (Self::Count(..), [n, of]) => format!("{n}/{of}"),
             (Self::Rate(..), [n, of, low, high]) => format!("{n}/{of} [{low}, {high}] %"),
@@ -85,6 +96,14 @@ fn decimal(value: f64, n_decimals: usize) -> String {
     text[usize::from(is_nought)..].to_owned()
 }
 
+fn probability(p: f64) -> String {
+    if p < 1e-4 {
+        format!("{p:.1e}")
+    } else {
+        decimal(p, 4)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -97,6 +116,9 @@ mod tests {
             (Field::Number(Some(-0.01), 1), "0.0"),
             (Field::Number(Some(-0.5), 1), "-0.5"),
             (Field::Number(None, 1), "-"),
+            (Field::Probability(Some(0.012_34)), "0.0123"),
+            (Field::Probability(Some(1.3e-9)), "1.3e-9"),
+            (Field::Verdict(Verdict::InPart), "holds in part"),
             (Field::Spread(Some([1.0, 2.0, 3.0]), 0), "2 [1, 3]"),
             (Field::Spread(None, 0), "-"),
             (Field::Count(3, 4), "3/4"),

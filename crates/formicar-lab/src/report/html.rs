@@ -1,8 +1,12 @@
 //! Reports as one page that needs nothing else.
 
 use super::keys::{Keys, NamedPart};
-use super::{Block, Report, Section, Table};
+use super::provenance::config_hash;
+use super::{Block, Field, Figure, PROSE_CHARS, Report, Section, Table, Verdict};
 use std::fmt::Write;
+
+/// Pictures up to this width stand two in a row where two follow each other, pixels.
+const HALF_PX: f64 = 800.0;
 
 const STYLE: &str = include_str!("page.css");
 
@@ -82,27 +86,55 @@ fn write_section(
         "<section id=\"section-{}\">\n<h2>{heading}</h2>",
         i + 1
     );
-    for block in &section.blocks {
-        match block {
-            Block::Text(words) => {
-                let _ = writeln!(text, "<p>{}</p>", inline(words));
-            }
-            Block::Table(table) => {
+    let figures: Vec<Option<Figure>> = section.blocks.iter().map(Block::figure).collect();
+    let is_narrow: Vec<bool> = figures
+        .iter()
+        .map(|figure| is_narrow(figure.as_ref()))
+        .collect();
+    for (i, (block, figure)) in section.blocks.iter().zip(&figures).enumerate() {
+        let is_beside = |j: Option<usize>| j.and_then(|j| is_narrow.get(j)) == Some(&true);
+        let has_neighbor = is_beside(i.checked_sub(1)) || is_beside(Some(i + 1));
+        let class = if is_narrow[i] && has_neighbor {
+            " class=\"half\""
+        } else {
+            ""
+        };
+        match (block, figure) {
+            (Block::Table(table), _) => {
                 let named = keys.name(table);
                 write_table(text, table, &named);
             }
-            Block::Figure(figure) => {
-                *n_figures += 1;
-                let caption = inline(&figure.caption);
-                let _ = writeln!(
-                    text,
-                    "<figure>\n{}<figcaption><b>Figure {n_figures}.</b> {caption}</figcaption>\n</figure>",
-                    figure.svg
-                );
+            (Block::Text(words), _) => {
+                let _ = writeln!(text, "<p>{}</p>", inline(words));
+            }
+            (_, figure) => {
+                *n_figures += usize::from(figure.is_some());
+                write_figure(text, figure.as_ref(), (*n_figures, class));
             }
         }
     }
     text.push_str("</section>\n");
+}
+
+fn write_figure(text: &mut String, figure: Option<&Figure>, (number, class): (usize, &str)) {
+    let Some(figure) = figure else {
+        return;
+    };
+    let caption = inline(&figure.caption);
+    let _ = writeln!(
+        text,
+        "<figure{class}>\n{}<figcaption><b>Figure {number}.</b> {caption}</figcaption>\n</figure>",
+        figure.svg
+    );
+}
+
+/// Whether a picture is narrow enough to stand beside another such.
+fn is_narrow(figure: Option<&Figure>) -> bool {
+    let svg = figure.map_or("", |figure| figure.svg.as_str());
+    let width = svg.split_once(" width=\"");
+    let width = width.and_then(|(_, rest)| rest.split_once('"'));
+    let width_px = width.and_then(|(width, _)| width.parse::<f64>().ok());
+    width_px.is_some_and(|width_px| width_px <= HALF_PX)
 }
 
 fn write_table(text: &mut String, table: &Table, named: &[Vec<Vec<NamedPart>>]) {
@@ -118,8 +150,15 @@ fn write_table(text: &mut String, table: &Table, named: &[Vec<Vec<NamedPart>>]) 
         "<div class=\"table\"><table id=\"table-{key}\" aria-describedby=\"about-{key}\">"
     );
     text.push_str("<thead><tr>");
-    for name in &table.heading {
-        let _ = write!(text, "<th scope=\"col\">{}</th>", inline(name));
+    for (i, name) in table.heading.iter().enumerate() {
+        let fields = table.rows.iter().filter_map(|row| row.get(i));
+        let is_words = |field: &Field| matches!(field, Field::Words(_) | Field::Verdict(_));
+        let class = if { fields }.all(is_words) {
+            " class=\"words\""
+        } else {
+            ""
+        };
+        let _ = write!(text, "<th scope=\"col\"{class}>{}</th>", inline(name));
     }
     text.push_str("</tr></thead>\n<tbody>\n");
     for (row, named) in table.rows.iter().zip(named) {
@@ -128,19 +167,36 @@ fn write_table(text: &mut String, table: &Table, named: &[Vec<Vec<NamedPart>>]) 
             let numbers: Vec<String> = parts.iter().map(number).collect();
             let numbers: Vec<&str> = numbers.iter().map(String::as_str).collect();
             let laid_out = field.laid_out(&numbers);
-            let inner = if parts.is_empty() {
-                inline(&laid_out)
-            } else {
-                laid_out
+            let inner = match field {
+                Field::Verdict(verdict) => verdict_mark(*verdict),
+                _ if parts.is_empty() => inline(&laid_out),
+                _ => laid_out,
             };
+            let class = class(field);
             let _ = match i {
-                0 => write!(text, "<th scope=\"row\">{inner}</th>"),
-                _ => write!(text, "<td>{inner}</td>"),
+                0 => write!(text, "<th scope=\"row\"{class}>{inner}</th>"),
+                _ => write!(text, "<td{class}>{inner}</td>"),
             };
         }
         text.push_str("</tr>\n");
     }
     text.push_str("</tbody></table></div>\n");
+}
+
+/// Words are set from the left, and long ones in several lines.
+fn class(field: &Field) -> &'static str {
+    match field {
+        Field::Words(words) if words.chars().count() > PROSE_CHARS => " class=\"prose\"",
+        Field::Words(_) | Field::Verdict(_) => " class=\"words\"",
+        _ => "",
+    }
+}
+
+fn verdict_mark(verdict: Verdict) -> String {
+    let (class, mark, name) = (verdict.class(), verdict.mark(), verdict.name());
+    format!(
+        "<span class=\"verdict {class}\"><span aria-hidden=\"true\">{mark}</span> {name}</span>"
+    )
 }
 
 /// A number with its name, for whoever looks for it.
@@ -162,7 +218,8 @@ fn provenance(text: &mut String, page: &Page) {
         let (name, value) = (inline(&config.name), escaped(&config.value));
         let _ = writeln!(
             text,
-            "<details><summary>{name}</summary><pre>{value}</pre></details>"
+            "<details><summary>{name} <code class=\"hash\">{}</code></summary><pre>{value}</pre></details>",
+            config_hash(&config.value)
         );
     }
     text.push_str("</section>\n");
@@ -196,7 +253,6 @@ fn escaped(words: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::{Field, Figure};
 
     #[test]
     fn a_page_holds_everything_and_loads_nothing() {
@@ -223,7 +279,7 @@ mod tests {
         for part in [
             "<title>A &amp; B</title>",
             "<p class=\"caption\" id=\"about-t\">Of <code>x</code> &lt; y.</p>",
-            "<th scope=\"row\">&lt;a&gt;</th><td><data value=\"pTAAboveWhat\">2.0</data></td>",
+            "<th scope=\"row\" class=\"words\">&lt;a&gt;</th><td><data value=\"pTAAboveWhat\">2.0</data></td>",
             "<b>Figure 1.</b> A line.",
             "<dt>seed</dt><dd>0</dd>",
             "<pre>{&quot;n&quot;: 1}</pre>",

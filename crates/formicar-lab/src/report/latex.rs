@@ -1,7 +1,7 @@
 //! Tables as LaTeX, with a macro for every number.
 
 use super::keys::{Keys, NamedPart};
-use super::{Report, Table};
+use super::{Field, PROSE_CHARS, Report, Table};
 use std::fmt::Write;
 
 /// The tables of a report for `\input` in a document that uses `booktabs`: first a `\newcommand`
@@ -23,7 +23,7 @@ pub fn latex(report: &Report) -> String {
 }
 
 fn of_table(report: &Report, table: &Table, named: &[Vec<Vec<NamedPart>>]) -> String {
-    let columns = "r".repeat(table.heading.len().saturating_sub(1));
+    let columns: String = (0..table.heading.len()).map(|i| column(table, i)).collect();
     let caption = if table.caption.is_empty() {
         &report.title
     } else {
@@ -31,7 +31,7 @@ fn of_table(report: &Report, table: &Table, named: &[Vec<Vec<NamedPart>>]) -> St
     };
     let heading: Vec<String> = table.heading.iter().map(|name| escaped(name)).collect();
     let mut text = format!(
-        "\n\\begin{{table}}\n\\caption{{{}}}\n\\label{{tab:{}-{}}}\n\\begin{{tabular}}{{l{columns}}}\n\
+        "\n\\begin{{table}}\n\\caption{{{}}}\n\\label{{tab:{}-{}}}\n\\begin{{tabular}}{{{columns}}}\n\
          \\toprule\n{} \\\\\n\\midrule\n",
         escaped(caption),
         report.name,
@@ -53,6 +53,20 @@ fn of_table(report: &Report, table: &Table, named: &[Vec<Vec<NamedPart>>]) -> St
         let _ = writeln!(text, "{} \\\\", fields.join(" & "));
     }
     text + "\\bottomrule\n\\end{tabular}\n\\end{table}\n"
+}
+
+/// How a column is set: numbers from the right, words from the left, long ones in several lines.
+fn column(table: &Table, i: usize) -> &'static str {
+    let fields = || table.rows.iter().filter_map(|row| row.get(i));
+    let is_words = |field: &Field| matches!(field, Field::Words(_) | Field::Verdict(_));
+    let is_long =
+        |field: &Field| matches!(field, Field::Words(words) if words.chars().count() > PROSE_CHARS);
+    match i {
+        _ if fields().any(is_long) => "p{0.22\\linewidth}",
+        0 => "l",
+        _ if fields().next().is_some() && fields().all(is_words) => "l",
+        _ => "r",
+    }
 }
 
 /// Words for LaTeX; those between backticks as code.
@@ -83,7 +97,7 @@ fn escaped_char(c: char) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::{Field, Section};
+    use crate::report::Section;
 
     #[test]
     fn numbers_are_macros_and_words_are_escaped() {
@@ -108,5 +122,6 @@ mod tests {
             "{text}"
         );
         assert!(text.contains("] \\% \\\\\n\\bottomrule"), "{text}");
+        assert!(text.contains("\\begin{tabular}{lr}"), "{text}");
     }
 }

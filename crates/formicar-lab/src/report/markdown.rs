@@ -12,8 +12,9 @@ pub fn markdown(report: &Report) -> String {
             let _ = match block {
                 Block::Text(words) => write!(text, "\n{words}\n"),
                 Block::Table(table) => write!(text, "\n{}", of_table(table)),
-                Block::Figure(figure) => {
-                    write!(text, "\nFigure, in `index.html`: {}\n", figure.caption)
+                figure => {
+                    let caption = figure.figure_caption().unwrap_or_default();
+                    write!(text, "\nFigure, in `index.html`: {caption}\n")
                 }
             };
         }

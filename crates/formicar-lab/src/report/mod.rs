@@ -1,18 +1,39 @@
-//! Results as a document: sections of text, tables and figures, written as a page, as Markdown and
-//! as LaTeX from one description.
+//! Results as a document: sections of text, tables and figures, written as a page, as Markdown, as
+//! LaTeX, as JSON and as CSV from one description.
 
+mod block;
 mod field;
 mod html;
+mod json;
 mod keys;
 mod latex;
 mod markdown;
+mod numbers;
+mod ompl_log;
+mod overlay;
+mod parameters;
+mod plot;
+mod provenance;
 mod table;
+mod verdict;
 
+pub use block::{Block, Figure};
 pub use field::Field;
 pub use html::{Fact, Page, page};
+pub use json::json;
 pub use latex::latex;
 pub use markdown::markdown;
+pub use numbers::numbers_csv;
+pub use ompl_log::{OmplLog, OmplPlanner, OmplRun, Property, PropertyKind};
+pub use overlay::{Overlay, OverlayPath, strips};
+pub use parameters::{Known, Parameter, ParameterSheet, Source};
+pub use plot::{BandPanel, Bands, BoxGroup, BoxPlot, Course, PairedPanel, PairedPlot, ScaleKind};
+pub use provenance::config_hash;
 pub use table::{Row, Table};
+pub use verdict::Verdict;
+
+/// Words longer than this are set in several lines.
+const PROSE_CHARS: usize = 34;
 
 /// A document; words between backticks are set as code.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,26 +55,6 @@ pub struct Section {
     pub heading: String,
     /// What stands below it.
     pub blocks: Vec<Block>,
-}
-
-/// What stands in a section.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Block {
-    /// A paragraph.
-    Text(String),
-    /// A table.
-    Table(Table),
-    /// A picture.
-    Figure(Figure),
-}
-
-/// A picture with its caption.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Figure {
-    /// What it shows.
-    pub caption: String,
-    /// The picture as SVG.
-    pub svg: String,
 }
 
 impl Section {

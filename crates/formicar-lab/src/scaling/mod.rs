@@ -65,6 +65,8 @@ pub fn scaling(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproduction
             sections: sections.into(),
         },
         csv: csv(&samples)?,
+        courses_csv: String::new(),
+        ompl_logs: Vec::new(),
         n_runs: samples.len(),
         facts,
         configs: configs_of(pairs)?,

@@ -21,40 +21,31 @@ pub(crate) fn run_one(job: &str, out: &mut impl Write) -> Result<Ending, Failure
     let begun = Instant::now();
     usage::end_with_parent();
     let job: Job = serde_json::from_str(job).context("the run")?;
+    let told = match &job.contender.rival {
+        Some(command) => rival::run_one(&job, command)?,
+        None => ours(&job, begun)?,
+    };
+    serde_json::to_writer(&mut *out, &told).map_err(std::io::Error::from)?;
+    writeln!(out)?;
+    Ok(Ending::Done)
+}
+
+/// A run of a planner of ours.
+fn ours(job: &Job, begun: Instant) -> Result<Told> {
     let contender = &job.contender;
-    if let Some(command) = &contender.rival {
-        let told = rival::run_one(&job, command)?;
-        serde_json::to_writer(&mut *out, &told).map_err(std::io::Error::from)?;
-        writeln!(out)?;
-        return Ok(Ending::Done);
-    }
     let config = (contender.config.clone(), contender.name.as_str());
     let config = settings::typed(&settings::merge(config, &[], Some(contender.planner))?)?;
     let ground = ground::load(&place::ground_args(&job.task, job.vehicle_source()))?;
-    let request = place::request(&job, &ground)?;
+    let request = place::request(job, &ground)?;
     let mut session = Session::new(ground, config, begun)?;
-    let mut ask = || session.ask(&request, &RequestDocument::default(), Seed(job.seed));
-    let (used_before_s, cold) = (usage::cpu_s(), ask());
-    let (used_cold_s, warm) = (usage::cpu_s(), (!job.limits.is_cold).then(ask));
-    // Before anything else uses up more. What the first asking took is not counted twice.
-    let warmed_up_s = warm.is_some().then(|| Some(used_cold_s? - used_before_s?));
-    let cpu_s = usage::cpu_s().map(|all_s| all_s - warmed_up_s.flatten().unwrap_or(0.0));
-    let used = json!({
-        "cpu_s": cpu_s,
-        "peak_rss_bytes": usage::peak_rss_bytes(),
-        "cold_first_s": cold.answer.timing.first_feasible_s,
-    });
-    let is_same = warm
-        .as_ref()
-        .is_none_or(|warm| path_of(warm) == path_of(&cold));
-    let answered = warm.unwrap_or(cold);
+    let (answered, used, is_same) = ask(&mut session, &request, job);
     if let Some(path) = &job.answer {
         let mut answer = serde_json::to_vec(&answered.answer).map_err(std::io::Error::from)?;
         answer.push(b'\n');
         write_atomically(path, &answer)
             .with_context(|| format!("{} cannot be written", path.display()))?;
     }
-    let mut row = Row::begin(&job);
+    let mut row = Row::begin(job);
     row.fill(&used);
     fill(&mut row, &answered);
     let planner = &session.planner;
@@ -84,14 +75,31 @@ pub(crate) fn run_one(job: &str, out: &mut impl Write) -> Result<Ending, Failure
     {
         row.set("optimal_length_cells", &json!(optimal_length_cells));
     }
-    let told = Told {
+    Ok(Told {
         row: row.values(),
         history: history(&answered),
         path: path(&answered),
-    };
-    serde_json::to_writer(&mut *out, &told).map_err(std::io::Error::from)?;
-    writeln!(out)?;
-    Ok(Ending::Done)
+    })
+}
+
+/// Asks as often as the run says: the answer that counts, what was used for it, and whether all
+/// answers have the same path.
+fn ask(session: &mut Session, request: &RequestDocument, job: &Job) -> (Answered, Value, bool) {
+    let mut ask = || session.ask(request, &RequestDocument::default(), Seed(job.seed));
+    let (used_before_s, cold) = (usage::cpu_s(), ask());
+    let (used_cold_s, warm) = (usage::cpu_s(), (!job.limits.is_cold).then(ask));
+    // Before anything else uses up more. What the first asking took is not counted twice.
+    let warmed_up_s = warm.is_some().then(|| Some(used_cold_s? - used_before_s?));
+    let cpu_s = usage::cpu_s().map(|all_s| all_s - warmed_up_s.flatten().unwrap_or(0.0));
+    let used = json!({
+        "cpu_s": cpu_s,
+        "peak_rss_bytes": usage::peak_rss_bytes(),
+        "cold_first_s": cold.answer.timing.first_feasible_s,
+    });
+    let is_same = warm
+        .as_ref()
+        .is_none_or(|warm| path_of(warm) == path_of(&cold));
+    (warm.unwrap_or(cold), used, is_same)
 }
 
 /// How the query went.

@@ -27,15 +27,13 @@ pub(super) fn all(
         let (sender, rows) = mpsc::channel();
         for _ in 0..jobs.len().min(n_at_once as usize) {
             let (sender, next, program) = (sender.clone(), &next, &program);
-            let mine = std::iter::from_fn(move || {
+            let mut mine = std::iter::from_fn(move || {
                 let place = next.fetch_add(1, Ordering::Relaxed);
                 Some((place, *jobs.get(place)?))
             });
             // Nobody listens any more after a failure.
-            scope.spawn(move || {
-                mine.map(|(place, job)| (place, one(program, job)))
-                    .try_for_each(|over| sender.send(over))
-            });
+            let send = move |(place, job)| sender.send((place, one(program, job))).is_ok();
+            scope.spawn(move || mine.all(send));
         }
         drop(sender);
         for (place, over) in rows {

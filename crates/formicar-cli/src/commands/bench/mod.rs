@@ -19,6 +19,7 @@ mod variant;
 
 pub(crate) use args::BenchArgs;
 pub(crate) use child::run_one;
+pub(super) use place::ground_args;
 pub(super) use usage::end_with_parent;
 
 use super::machine;

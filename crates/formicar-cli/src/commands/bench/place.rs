@@ -9,7 +9,7 @@ use formicar::planner::RequestDocument;
 use formicar_lab::campaign::{Job, Place, Task};
 
 /// What `plan` would be told of the ground of a scenario.
-pub(super) fn ground_args(task: &Task, vehicle: Option<&str>) -> GroundArgs {
+pub(in crate::commands) fn ground_args(task: &Task, vehicle: Option<&str>) -> GroundArgs {
     let blank = GroundArgs {
         vehicle: vehicle.map(str::to_owned),
         ..GroundArgs::default()

@@ -48,20 +48,30 @@ impl Runs {
         for task in &self.tasks {
             for vehicle in &self.vehicles {
                 for limits in &self.limits {
-                    for contender in &self.contenders {
-                        jobs.extend(self.seeds.iter().map(|&seed| Job {
-                            task: task.clone(),
-                            vehicle: vehicle.clone(),
-                            contender: contender.clone(),
-                            seed,
-                            limits: *limits,
-                            answer: None,
-                        }));
-                    }
+                    jobs.extend(self.of_planners(task, vehicle.as_ref(), *limits));
                 }
             }
         }
         jobs
+    }
+
+    /// The runs of all planners with all seeds.
+    fn of_planners(
+        &self,
+        task: &Task,
+        vehicle: Option<&VehicleChoice>,
+        limits: Limits,
+    ) -> impl Iterator<Item = Job> {
+        let job = move |contender: &Contender, seed: u64| Job {
+            task: task.clone(),
+            vehicle: vehicle.cloned(),
+            contender: contender.clone(),
+            seed,
+            limits,
+            answer: None,
+        };
+        let contenders = self.contenders.iter();
+        contenders.flat_map(move |c| self.seeds.iter().map(move |&seed| job(c, seed)))
     }
 
     /// Every run with what it depends on.

@@ -4,11 +4,13 @@ use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
 /// Flags of `compare`.
+#[allow(clippy::struct_excessive_bools, reason = "each is a flag of its own")]
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Verdicts are on B: better, worse, no difference shown, or not comparable. Times and memory compare \
-only where both sides name the same machine and the same kind of build; run builds side by side \
-with --with, since machines are never twice as busy.")]
+only where both sides name the same machine and the same kind of build; sides \
+measured at different times still differ by how busy the machine was, so that the speed of builds \
+is compared by --with.")]
 pub(crate) struct CompareArgs {
     /// A store or a results.csv of `bench`, the one to be compared with; with --with a campaign file.
     #[arg(value_name = "A|CAMPAIGN.toml", value_hint = ValueHint::FilePath)]
@@ -23,6 +25,10 @@ pub(crate) struct CompareArgs {
     /// and the other build is A.
     #[arg(long, value_name = "PROGRAM", value_hint = ValueHint::ExecutablePath)]
     pub(crate) with: Option<PathBuf>,
+
+    /// Leave times and memory out: compare only what is the same in every run of a build.
+    #[arg(long)]
+    pub(crate) results_only: bool,
 
     /// Exit code 3 where a metric is worse.
     #[arg(long)]

@@ -14,12 +14,12 @@ pub(super) fn sides(path: &Path, other: &Path) -> Result<[Side; 2]> {
     let campaign = campaign::read(path)?.campaign()?;
     let of_other = version(other)?;
     let this = execute::this_program()?;
-    let [mut a, mut b] = [side("other build"), side("this build")];
-    fill(&campaign, [other, &this], [&mut a, &mut b])?;
-    for record in &mut a.records {
+    let mut sides = [side("other build"), side("this build")];
+    fill(&campaign, [other, &this], &mut sides)?;
+    for record in &mut sides[0].records {
         record.origin.set("version", &of_other);
     }
-    Ok([a, b])
+    Ok(sides)
 }
 
 fn side(name: &str) -> Side {
@@ -30,7 +30,7 @@ fn side(name: &str) -> Side {
 }
 
 /// The first run of a pair is in turns the one's and the other's.
-fn fill(campaign: &Campaign, programs: [&Path; 2], sides: [&mut Side; 2]) -> Result<()> {
+fn fill(campaign: &Campaign, programs: [&Path; 2], sides: &mut [Side; 2]) -> Result<()> {
     let machine = machine::name();
     let bar = execute::progress_bar(2 * campaign.runs.len());
     for (place, run) in campaign.runs.iter().enumerate() {

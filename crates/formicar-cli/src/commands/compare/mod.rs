@@ -8,7 +8,7 @@ pub(crate) use args::CompareArgs;
 use super::{machine, results};
 use crate::failure::{Ending, Failure};
 use anyhow::Result;
-use formicar_lab::compare::{Comparison, Side};
+use formicar_lab::compare::{Comparison, Scope, Side};
 use formicar_lab::report::{Fact, latex, markdown};
 use std::io::Write;
 use std::path::Path;
@@ -17,11 +17,16 @@ use std::path::Path;
 pub(crate) fn run(args: &CompareArgs, out: &mut impl Write) -> Result<Ending, Failure> {
     let sides = match (&args.with, &args.b) {
         (Some(other), _) => interleaved::sides(&args.a, other)?,
-        (None, Some(b)) => [side(&args.a)?, side(b)?],
+        (None, Some(b)) => named_sides(&args.a, b)?,
         // One of the two is required.
         (None, None) => return Ok(Ending::Refused),
     };
-    let comparison = Comparison::new(&sides[0], &sides[1])?;
+    let scope = if args.results_only {
+        Scope::Results
+    } else {
+        Scope::All
+    };
+    let comparison = Comparison::new(&sides[0], &sides[1], scope)?;
     if let Some(folder) = &args.out {
         write(folder, &comparison, &sides, args.with.is_some())?;
     }
@@ -40,12 +45,21 @@ pub(crate) fn run(args: &CompareArgs, out: &mut impl Write) -> Result<Ending, Fa
     })
 }
 
-/// The runs of a file, under its name.
-fn side(path: &Path) -> Result<Side> {
-    Ok(Side {
-        name: results::name(path),
-        records: results::read(path)?.records,
-    })
+/// The runs of two files, under their names or, where these are the same, their paths.
+fn named_sides(a: &Path, b: &Path) -> Result<[Side; 2]> {
+    let is_same = results::name(a) == results::name(b);
+    let side = |path: &Path| -> Result<Side> {
+        let name = if is_same {
+            path.display().to_string()
+        } else {
+            results::name(path)
+        };
+        Ok(Side {
+            name,
+            records: results::read(path)?.records,
+        })
+    };
+    Ok([side(a)?, side(b)?])
 }
 
 fn write(

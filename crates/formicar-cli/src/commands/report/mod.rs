@@ -1,11 +1,13 @@
-//! `report`: stores as one page with tables, and as CSV and LaTeX.
+//! `report`: stores as one page with tables, charts and paths, and as CSV, JSON and LaTeX.
+
+mod pictures;
 
 use super::results;
 use crate::failure::{Ending, Failure};
 use anyhow::Result;
 use clap::{Args, ValueHint};
-use formicar_lab::campaign::{Record, Stored, report, to_csv};
-use formicar_lab::report::{Fact, latex, markdown};
+use formicar_lab::campaign::{Record, Stored, ompl_logs, report, to_csv};
+use formicar_lab::report::{Fact, latex, markdown, numbers_csv};
 use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::PathBuf;
@@ -18,7 +20,8 @@ pub(crate) struct ReportArgs {
     #[arg(required = true, value_hint = ValueHint::FilePath)]
     pub(crate) stores: Vec<PathBuf>,
 
-    /// Folder for index.html, summary.md, tables.tex and results.csv, made where it does not exist.
+    /// Folder for the page, made where it does not exist: index.html, and the same as summary.md,
+    /// report.json, tables.tex, numbers.csv; results.csv; a log of OMPL per scenario.
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub(crate) out: PathBuf,
 }
@@ -27,7 +30,12 @@ pub(crate) struct ReportArgs {
 pub(crate) fn run(args: &ReportArgs, out: &mut impl Write) -> Result<Ending, Failure> {
     let mut stores = Vec::new();
     for path in &args.stores {
-        stores.push((results::name(path), results::read(path)?));
+        let is_it = |other: &&PathBuf| results::name(other) == results::name(path);
+        let name = match args.stores.iter().filter(is_it).count() {
+            1 => results::name(path),
+            _ => path.display().to_string(),
+        };
+        stores.push((name, results::read(path)?));
     }
     tell_apart(&mut stores);
     let facts = facts(&stores);
@@ -37,16 +45,28 @@ pub(crate) fn run(args: &ReportArgs, out: &mut impl Write) -> Result<Ending, Fai
         .map(|(_, store)| store.name.as_str())
         .collect();
     let title = title.join(", ");
+    let paths = pictures::section(&stores);
     let records: Vec<Record> = stores.into_iter().flat_map(|(_, s)| s.records).collect();
-    let report = report(&title, &records)?;
+    let mut report = report(&title, &records)?;
+    report.sections.extend(paths);
     let mut files = results::report_files(&report, &facts, &configs);
     files.push(("tables.tex".to_owned(), latex(&report)));
+    files.push(("numbers.csv".to_owned(), numbers_csv(&report)?));
     files.push(("results.csv".to_owned(), to_csv(&records)?));
+    let logs = ompl_logs(&records).into_iter();
+    files.extend(logs.map(|log| (log_name(&log.name), log.to_text())));
     results::write_all(&args.out, &files)?;
     write!(out, "{}", markdown(&report))?;
     let page = args.out.join("index.html");
     writeln!(out, "\n{} runs: see {}", records.len(), page.display())?;
     Ok(Ending::Done)
+}
+
+/// A file name of a log's name, which may hold what file names may not.
+fn log_name(name: &str) -> String {
+    let is_kept = |c: char| c.is_alphanumeric() || "-_.".contains(c);
+    let kept = name.replace(|c| !is_kept(c), "_");
+    format!("ompl-{kept}.log")
 }
 
 /// Adds the name of its file to a planner that several files name.

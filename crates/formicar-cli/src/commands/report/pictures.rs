@@ -1,0 +1,110 @@
+//! Paths of stores on their maps, planner over planner, and what the first one's is like.
+
+use crate::commands::bench::ground_args;
+use crate::ground::{self, Ground};
+use formicar::geometry::Point2;
+use formicar::path::CurvePath;
+use formicar_lab::campaign::{Job, Record, Stored};
+use formicar_lab::report::{Block, Overlay, OverlayPath, Section, strips};
+use std::collections::BTreeSet;
+
+/// Scenarios that are drawn at most: the first ones.
+const MOST_DRAWN: usize = 8;
+/// Spacing of drawn places along a path, metres.
+const SPACING_M: f64 = 0.1;
+/// What is shown around the paths: a share of their extent, and so many metres.
+const MARGIN: (f64, f64) = (0.06, 2.0);
+
+/// Paths of one scenario: the job of the first, and every planner's with the least seed.
+struct Scene<'a> {
+    place: [&'a str; 3],
+    job: &'a Job,
+    paths: Vec<(&'a str, CurvePath)>,
+}
+
+/// The first scenarios with every planner's path; none where no store knows any. Scenarios whose
+/// maps are no longer where they were are left out.
+pub(super) fn section(stores: &[(String, Stored)]) -> Option<Section> {
+    let scenes = scenes(stores);
+    let drawn = scenes.iter().filter_map(|scene| {
+        let args = ground_args(&scene.job.task, scene.job.vehicle_source());
+        Some(draw(scene, &ground::load(&args).ok()?))
+    });
+    let blocks: Vec<Block> = drawn.take(MOST_DRAWN).flatten().collect();
+    (!blocks.is_empty()).then(|| Section {
+        heading: "Paths".to_owned(),
+        blocks,
+    })
+}
+
+fn scenes(stores: &[(String, Stored)]) -> Vec<Scene<'_>> {
+    let mut scenes: Vec<Scene> = Vec::new();
+    let mut known = BTreeSet::new();
+    for (record, job) in stores.iter().flat_map(|(_, store)| with_jobs(store)) {
+        let place = ["scenario", "vehicle", "motion"].map(|column| record.get(column));
+        let planner = record.get("planner");
+        let path = record
+            .path
+            .as_ref()
+            .and_then(formicar::planner::PathDocument::curve_path);
+        let Some(path) = path.filter(|_| known.insert((place, planner))) else {
+            continue;
+        };
+        match scenes.iter_mut().find(|scene| scene.place == place) {
+            Some(scene) => scene.paths.push((planner, path)),
+            None => scenes.push(Scene {
+                place,
+                job,
+                paths: vec![(planner, path)],
+            }),
+        }
+    }
+    scenes
+}
+
+fn with_jobs(store: &Stored) -> impl Iterator<Item = (&Record, &Job)> {
+    let with_job = |record| Some((record, store.jobs.get(Record::get(record, "run"))?));
+    store.records.iter().filter_map(with_job)
+}
+
+fn draw(scene: &Scene, ground: &Ground) -> Vec<Block> {
+    let [scenario, vehicle, motion] = scene.place;
+    let (planner, path) = &scene.paths[0];
+    let vehicle_name = if vehicle.is_empty() { "own" } else { vehicle };
+    let places = |path: &CurvePath| -> Vec<Point2> {
+        let samples = path.sample(SPACING_M).into_iter();
+        samples.map(|sample| sample.pose.position()).collect()
+    };
+    let paths = scene.paths.iter().map(|(name, path)| OverlayPath {
+        name: (*name).to_owned(),
+        points: places(path),
+    });
+    let paths: Vec<OverlayPath> = paths.collect();
+    let overlay = Overlay {
+        caption: format!(
+            "`{scenario}`, vehicle {vehicle_name}, {motion}: the first path of every planner."
+        ),
+        map: &ground.map,
+        window: window(&paths),
+        vehicle: &ground.vehicle.vehicle,
+        ends: [path.start(), path.end()],
+        paths,
+    };
+    let caption = format!(
+        "`{scenario}`: curvature, steering and clearance along the path of `{planner}`. Dashed \
+         lines are the vehicle's limits."
+    );
+    let along = strips(&caption, (&ground.map, &ground.vehicle.vehicle), path);
+    vec![Block::Figure(overlay.figure()), Block::Figure(along)]
+}
+
+/// The rectangle about all paths.
+fn window(paths: &[OverlayPath]) -> Option<(Point2, Point2)> {
+    let points = || paths.iter().flat_map(|path| &path.points).copied();
+    let low = points().reduce(|a, b| Point2::new(a.x.min(b.x), a.y.min(b.y)))?;
+    let high = points().reduce(|a, b| Point2::new(a.x.max(b.x), a.y.max(b.y)))?;
+    let extent_m = (high.x - low.x).max(high.y - low.y);
+    let margin_m = MARGIN.0 * extent_m + MARGIN.1;
+    let margin = Point2::new(margin_m, margin_m);
+    Some((low - margin, high + margin))
+}
