@@ -1,7 +1,8 @@
 //! Commands and flags.
 
 use crate::commands::{
-    BenchArgs, CompareArgs, MapArgs, ReportArgs, ReproduceArgs, StressArgs, TrackArgs, TuneArgs,
+    BenchArgs, CompareArgs, ImportArgs, MapArgs, ReportArgs, ReproduceArgs, RivalPlanner,
+    StressArgs, TrackArgs, TuneArgs,
 };
 use crate::values;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
@@ -37,6 +38,8 @@ pub(crate) enum Command {
     Bench(Box<BenchArgs>),
     /// Compare two stores of results, or two builds: a verdict per metric.
     Compare(CompareArgs),
+    /// Judge files of other planners, and add them to a table of results.
+    Import(Box<ImportArgs>),
     /// Turn stores of results into a page with tables, CSV and LaTeX.
     Report(ReportArgs),
     /// Repeat the experiments of a paper: tables beside its own.
@@ -63,6 +66,19 @@ pub(crate) enum Command {
     BenchRun {
         /// The run, as JSON.
         job: String,
+    },
+    /// Answer a question of the protocol of rivals from stdin.
+    #[command(hide = true)]
+    Rival {
+        /// By which planner.
+        planner: RivalPlanner,
+    },
+    /// Become a program that ends with the one that has started it.
+    #[command(hide = true)]
+    RivalRun {
+        /// The program and its arguments.
+        #[arg(required = true, trailing_var_arg = true, allow_hyphen_values = true)]
+        words: Vec<String>,
     },
 }
 

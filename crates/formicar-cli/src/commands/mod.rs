@@ -4,6 +4,7 @@ mod bench;
 mod check;
 mod compare;
 mod demo;
+mod import;
 mod list;
 mod machine;
 mod map;
@@ -12,6 +13,7 @@ mod plan;
 mod report;
 mod reproduce;
 mod results;
+mod rival;
 mod stdin;
 mod stress;
 mod subject;
@@ -20,9 +22,11 @@ mod tune;
 
 pub(crate) use bench::BenchArgs;
 pub(crate) use compare::CompareArgs;
+pub(crate) use import::ImportArgs;
 pub(crate) use map::MapArgs;
 pub(crate) use report::ReportArgs;
 pub(crate) use reproduce::ReproduceArgs;
+pub(crate) use rival::RivalPlanner;
 pub(crate) use stress::StressArgs;
 pub(crate) use track::TrackArgs;
 pub(crate) use tune::TuneArgs;
@@ -40,7 +44,10 @@ pub(crate) fn run(command: &Command, out: &mut impl Write) -> Result<Ending, Fai
         Command::Track(args) => track::run(args, out),
         Command::Bench(args) => bench::run(args, out),
         Command::BenchRun { job } => bench::run_one(job, out),
+        Command::Rival { planner } => rival::run(*planner, out),
+        Command::RivalRun { words } => rival::replace(words),
         Command::Compare(args) => compare::run(args, out),
+        Command::Import(args) => import::run(args, out),
         Command::Report(args) => report::run(args, out),
         Command::Reproduce(args) => reproduce::run(args, out),
         Command::Stress(args) => stress::run(args, out),

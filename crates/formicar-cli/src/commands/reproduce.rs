@@ -56,7 +56,9 @@ pub(crate) enum Paper {
     Li2024,
     /// No paper: replanning against planning anew on changing maps.
     Replanning,
-    /// All of them.
+    /// No paper: how cost grows with cells, density, vehicle, ants and threads.
+    Scaling,
+    /// All but scaling, which takes long and tells of the machine.
     All,
 }
 
@@ -70,6 +72,7 @@ impl Paper {
             Self::Wang2019 => vec![("wang2019", formicar_lab::wang2019)],
             Self::Li2024 => vec![("li2024", formicar_lab::li2024)],
             Self::Replanning => vec![("replanning", formicar_lab::replanning)],
+            Self::Scaling => vec![("scaling", formicar_lab::scaling)],
             Self::All => [
                 Self::Lei2020,
                 Self::Wang2019,

@@ -46,6 +46,8 @@ pub struct PlannerEntry {
     pub config: Option<Spanned<Value>>,
     /// Single parameters as KEY=VALUE.
     pub set: Vec<Spanned<String>>,
+    /// The program that plans in the planner's place, and its arguments.
+    pub command: Option<Vec<String>>,
 }
 
 #[derive(Deserialize)]
@@ -70,7 +72,8 @@ struct Raw {
 #[serde(deny_unknown_fields)]
 struct RawPlanner {
     name: Option<Spanned<String>>,
-    planner: Spanned<String>,
+    planner: Option<Spanned<String>>,
+    command: Option<Spanned<Vec<String>>>,
     config: Option<Spanned<Value>>,
     #[serde(default)]
     set: Vec<Spanned<String>>,
@@ -153,10 +156,29 @@ fn motion(value: &Value) -> Option<MotionMode> {
 fn planners(raw: Vec<Spanned<RawPlanner>>, text: &Text) -> Result<Vec<PlannerEntry>> {
     let mut entries: Vec<PlannerEntry> = Vec::new();
     for entry in raw {
+        let span = entry.span();
         let raw = entry.into_inner();
-        let planner = PlannerName::from_str(raw.planner.get_ref());
-        let planner = planner.map_err(|e| text.mistake(Some(raw.planner.span()), e))?;
-        let name = raw.name.unwrap_or(raw.planner);
+        let (name, planner) = match (&raw.planner, &raw.command) {
+            (Some(word), None) => {
+                let planner = PlannerName::from_str(word.get_ref());
+                let planner = planner.map_err(|e| text.mistake(Some(word.span()), e))?;
+                (raw.name.unwrap_or_else(|| word.clone()), planner)
+            }
+            (None, Some(command)) => {
+                check_command(command, &raw, text)?;
+                let missing = || {
+                    text.mistake(
+                        Some(command.span()),
+                        "a program needs a name; hint: name = \"NAME\"",
+                    )
+                };
+                (raw.name.ok_or_else(missing)?, PlannerName::default())
+            }
+            _ => {
+                let what = "expected either planner = \"NAME\" or command = [\"PROGRAM\", ...]";
+                return Err(text.mistake(Some(span), what));
+            }
+        };
         let is_name = |c: char| c.is_alphanumeric() || "-_.+ ".contains(c);
         if name.get_ref().is_empty() || !name.get_ref().chars().all(is_name) {
             let what = "expected letters, digits and any of - _ . + and space";
@@ -177,6 +199,7 @@ fn planners(raw: Vec<Spanned<RawPlanner>>, text: &Text) -> Result<Vec<PlannerEnt
             planner,
             config: raw.config,
             set: raw.set,
+            command: raw.command.map(Spanned::into_inner),
         });
     }
     if entries.is_empty() {
@@ -185,9 +208,27 @@ fn planners(raw: Vec<Spanned<RawPlanner>>, text: &Text) -> Result<Vec<PlannerEnt
             planner: PlannerName::default(),
             config: None,
             set: Vec::new(),
+            command: None,
         });
     }
     Ok(entries)
+}
+
+/// Refuses a program without a word, and parameters of ours for it.
+fn check_command(command: &Spanned<Vec<String>>, raw: &RawPlanner, text: &Text) -> Result<()> {
+    if command.get_ref().first().is_none_or(String::is_empty) {
+        let what = "expected the program and its arguments, [\"PROGRAM\", ...]";
+        return Err(text.mistake(Some(command.span()), what));
+    }
+    let of_ours = raw.config.as_ref().map(Spanned::span);
+    let of_ours = of_ours.or_else(|| raw.set.first().map(Spanned::span));
+    match of_ours {
+        Some(span) => {
+            let what = "a program has its own parameters; hint: write them into command";
+            Err(text.mistake(Some(span), what))
+        }
+        None => Ok(()),
+    }
 }
 
 #[cfg(test)]
@@ -212,78 +253,103 @@ mod tests {
         assert!(document.vehicles.is_empty() && !document.is_cold);
     }
 
-    /// What stands at the beginning of a file, and what is said of it.
-    const MISTAKES: [(&str, &str); 17] = [
-        (
-            "sedes = 3\n",
-            "c.toml, line 1, sedes: unknown field `sedes`, expected one of `name`, `seeds`",
-        ),
-        (
-            "\nbudget_steps = 0\n",
-            "line 2, budget_steps: 0; expected a number above 0",
-        ),
-        (
-            "deadline_ms = nan\n",
-            "line 1, deadline_ms: NaN; expected a number above 0",
-        ),
-        (
-            "budget_steps = \"much\"\n",
-            "line 1, budget_steps: invalid type: string \"much\", expected u64",
-        ),
-        (
-            "cold = 1\n",
-            "line 1, cold: invalid type: integer `1`, expected a boolean",
-        ),
-        (
-            "motion = \"back\"\n",
-            "line 1, motion: expected \"reverse\" (both gears), \"forward\"",
-        ),
-        ("motion = [\"reverse\", \"reverse\"]\n", "a list of both"),
-        ("seeds = 0\n", "line 1, seeds: expected a count from 1"),
-        (
-            "[[planner]]\nplanner = \"rrt\"\n",
-            "line 2, planner: no planner is named \"rrt\"; there are formicar, hybrid-astar",
-        ),
-        (
-            "[[planner]]\nname = \"a\"\n",
-            "line 1, [[planner]]: missing field `planner`",
-        ),
-        (
-            "[[planner]]\nplanner = \"astar\"\nweight = 2\n",
-            "line 3, weight: unknown field `weight`, expected one of `name`, `planner`, `config`, `set`",
-        ),
-        (
-            "[[planner]]\nplanner = \"astar\"\n[[planner]]\nplanner = \"astar\"\n",
-            "line 4, planner: two planners are named \"astar\"",
-        ),
-        (
-            "[[planner]]\nplanner = \"astar\"\nname = \"a/b\"\n",
-            "line 3, name: expected letters",
-        ),
-        (
-            "[[scenarios]]\nids = [\"a\"]\n",
-            "line 1, [[scenarios]]: expected either builtin",
-        ),
-        (
-            "[[scenarios]]\nfile = \"a.csv\"\nresolution_m = -1\n",
-            "line 3, resolution_m: -1 m; expected a side above 0",
-        ),
-        (
-            "[[scenarios]]\nfile = \"a.json\"\nlimit = 0\n",
-            "line 3, limit: 0; expected 1 or more",
-        ),
-        ("seeds = \n", "line 1, seeds: "),
-    ];
-
-    #[test]
-    fn mistakes_name_file_line_key_and_what_is_allowed() {
-        for (text, told) in MISTAKES {
+    /// Every text is refused in the words beside it.
+    fn assert_told(cases: &[(&str, &str)]) {
+        for (text, told) in cases {
             let error = read(&format!("{text}{SCENARIOS}")).unwrap_err().to_string();
             assert!(
                 error.starts_with("c.toml, line ") && error.contains(told),
                 "{error}"
             );
         }
+    }
+
+    #[test]
+    fn mistakes_in_planners_name_file_line_key_and_what_is_allowed() {
+        assert_told(&[
+            (
+                "[[planner]]\nplanner = \"rrt\"\n",
+                "line 2, planner: no planner is named \"rrt\"; there are formicar, hybrid-astar",
+            ),
+            (
+                "[[planner]]\nname = \"a\"\n",
+                "line 1, [[planner]]: expected either planner = \"NAME\" or command",
+            ),
+            (
+                "[[planner]]\nplanner = \"astar\"\nweight = 2\n",
+                "line 3, weight: unknown field `weight`, expected one of `name`, `planner`, `command`, `config`, `set`",
+            ),
+            (
+                "[[planner]]\nplanner = \"astar\"\n[[planner]]\nplanner = \"astar\"\n",
+                "line 4, planner: two planners are named \"astar\"",
+            ),
+            (
+                "[[planner]]\nplanner = \"astar\"\nname = \"a/b\"\n",
+                "line 3, name: expected letters",
+            ),
+            (
+                "[[planner]]\nplanner = \"astar\"\ncommand = [\"x\"]\n",
+                "line 1, [[planner]]: expected either planner",
+            ),
+            (
+                "[[planner]]\nname = \"x\"\ncommand = []\n",
+                "line 3, command: expected the program and its arguments",
+            ),
+            (
+                "[[planner]]\ncommand = [\"x\"]\n",
+                "line 2, command: a program needs a name",
+            ),
+            (
+                "[[planner]]\nname = \"x\"\ncommand = [\"x\"]\nset = [\"a=1\"]\n",
+                "line 4, set: a program has its own parameters",
+            ),
+        ]);
+    }
+
+    #[test]
+    fn mistakes_name_file_line_key_and_what_is_allowed() {
+        let cases = [
+            (
+                "sedes = 3\n",
+                "c.toml, line 1, sedes: unknown field `sedes`, expected one of `name`, `seeds`",
+            ),
+            (
+                "\nbudget_steps = 0\n",
+                "line 2, budget_steps: 0; expected a number above 0",
+            ),
+            (
+                "deadline_ms = nan\n",
+                "line 1, deadline_ms: NaN; expected a number above 0",
+            ),
+            (
+                "budget_steps = \"much\"\n",
+                "line 1, budget_steps: invalid type: string \"much\", expected u64",
+            ),
+            (
+                "cold = 1\n",
+                "line 1, cold: invalid type: integer `1`, expected a boolean",
+            ),
+            (
+                "motion = \"back\"\n",
+                "line 1, motion: expected \"reverse\" (both gears), \"forward\"",
+            ),
+            ("motion = [\"reverse\", \"reverse\"]\n", "a list of both"),
+            ("seeds = 0\n", "line 1, seeds: expected a count from 1"),
+            (
+                "[[scenarios]]\nids = [\"a\"]\n",
+                "line 1, [[scenarios]]: expected either builtin",
+            ),
+            (
+                "[[scenarios]]\nfile = \"a.csv\"\nresolution_m = -1\n",
+                "line 3, resolution_m: -1 m; expected a side above 0",
+            ),
+            (
+                "[[scenarios]]\nfile = \"a.json\"\nlimit = 0\n",
+                "line 3, limit: 0; expected 1 or more",
+            ),
+            ("seeds = \n", "line 1, seeds: "),
+        ];
+        assert_told(&cases);
         assert!(read("").unwrap_err().to_string().contains("no scenarios"));
     }
 }

@@ -61,6 +61,18 @@ pub struct Contender {
     pub planner: PlannerName,
     /// Parameters that are not the planner's defaults, as in a configuration file.
     pub config: toml::Table,
+    /// The program that plans in the planner's place, which then stands for nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rival: Option<RivalCommand>,
+}
+
+/// A program that plans.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RivalCommand {
+    /// The program and its arguments; `formicar` is the program that runs the campaign.
+    pub words: Vec<String>,
+    /// Where it runs: the folder of the campaign file.
+    pub folder: PathBuf,
 }
 
 /// How long a run may take, and how it is asked.

@@ -20,7 +20,9 @@ mod store;
 mod table;
 
 pub use document::{Document, PlannerEntry};
-pub use job::{Contender, Job, Limits, OWN_VEHICLE, Place, RowKey, Task, VehicleChoice};
+pub use job::{
+    Contender, Job, Limits, OWN_VEHICLE, Place, RivalCommand, RowKey, Task, VehicleChoice,
+};
 pub use mistake::Text;
 pub use ompl::ompl_logs;
 pub use plan::{Campaign, ConfigRecord, Ground, PlannedRun};

@@ -64,12 +64,16 @@ impl ConfigRecord {
     /// # Errors
     /// Parameters that cannot be written as JSON.
     pub fn new(name: &str, config: &PlannerConfig) -> Result<Self> {
-        let json = serde_json::to_string(config)?;
-        Ok(Self {
+        Ok(Self::of_json(name, serde_json::to_string(config)?))
+    }
+
+    /// Of what else decides on a planner's answers.
+    pub fn of_json(name: &str, json: String) -> Self {
+        Self {
             name: name.to_owned(),
             hash: hash(&json),
             json,
-        })
+        }
     }
 }
 
@@ -156,6 +160,7 @@ pub(super) mod tests {
                 name: "astar".to_owned(),
                 planner: PlannerName::Astar,
                 config: toml::Table::new(),
+                rival: None,
             },
             seed,
             limits: Limits::default(),

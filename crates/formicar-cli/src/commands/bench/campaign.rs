@@ -5,7 +5,8 @@ use super::suite::{self, Source};
 use crate::{files, settings};
 use anyhow::{Result, anyhow};
 use formicar_lab::campaign::{
-    Contender, Document, Limits, Place, PlannerEntry, ScenariosEntry, Task, Text, VehicleChoice,
+    Contender, Document, Limits, Place, PlannerEntry, RivalCommand, ScenariosEntry, Task, Text,
+    VehicleChoice,
 };
 use std::ops::Range;
 use std::path::Path;
@@ -123,6 +124,17 @@ fn id_of(task: &Task) -> &str {
 
 /// A planner with its parameters.
 fn contender(entry: &PlannerEntry, text: &Text, folder: &Path) -> Result<Contender> {
+    if let Some(words) = &entry.command {
+        return Ok(Contender {
+            name: entry.name.get_ref().clone(),
+            planner: entry.planner,
+            config: Table::new(),
+            rival: Some(RivalCommand {
+                words: words.clone(),
+                folder: folder.to_owned(),
+            }),
+        });
+    }
     let base = config(entry.config.as_ref(), text, folder)?;
     let mut config = checked(base, &[], entry, text)?;
     for set in &entry.set {
@@ -133,6 +145,7 @@ fn contender(entry: &PlannerEntry, text: &Text, folder: &Path) -> Result<Contend
         name: entry.name.get_ref().clone(),
         planner: entry.planner,
         config,
+        rival: None,
     })
 }
 

@@ -1,6 +1,6 @@
 //! The process of one run: plans, measures itself, and prints its row.
 
-use super::{measure, place, usage};
+use super::{measure, place, rival, usage};
 use crate::commands::plan::{Answered, Session};
 use crate::failure::{Ending, Failure};
 use crate::{ground, settings};
@@ -21,26 +21,38 @@ pub(crate) fn run_one(job: &str, out: &mut impl Write) -> Result<Ending, Failure
     let begun = Instant::now();
     usage::end_with_parent();
     let job: Job = serde_json::from_str(job).context("the run")?;
+    let told = match &job.contender.rival {
+        Some(command) => rival::run_one(&job, command)?,
+        None => ours(&job, begun)?,
+    };
+    serde_json::to_writer(&mut *out, &told).map_err(std::io::Error::from)?;
+    writeln!(out)?;
+    Ok(Ending::Done)
+}
+
+/// A run of a planner of ours.
+fn ours(job: &Job, begun: Instant) -> Result<Told> {
     let contender = &job.contender;
     let config = (contender.config.clone(), contender.name.as_str());
     let config = settings::typed(&settings::merge(config, &[], Some(contender.planner))?)?;
     let ground = ground::load(&place::ground_args(&job.task, job.vehicle_source()))?;
-    let request = place::request(&job, &ground)?;
+    let request = place::request(job, &ground)?;
     let mut session = Session::new(ground, config, begun)?;
-    let (answered, used, is_same) = ask(&mut session, &request, &job);
+    let (answered, used, is_same) = ask(&mut session, &request, job);
     if let Some(path) = &job.answer {
         let mut answer = serde_json::to_vec(&answered.answer).map_err(std::io::Error::from)?;
         answer.push(b'\n');
         write_atomically(path, &answer)
             .with_context(|| format!("{} cannot be written", path.display()))?;
     }
-    let mut row = Row::begin(&job);
+    let mut row = Row::begin(job);
     row.fill(&used);
     fill(&mut row, &answered);
     let planner = &session.planner;
     let asked = request.onto(&RequestDocument::default()).ok();
     if let Some(asked) = &asked {
-        measure::ground(&mut row, planner, [asked.start, asked.goal]);
+        let place = (&**planner.obstacles(), planner.vehicle());
+        measure::ground(&mut row, place, [asked.start, asked.goal]);
     }
     if let Ok(Outcome::Found(plan)) = &answered.result {
         if let Some(asked) = &asked {
@@ -63,14 +75,11 @@ pub(crate) fn run_one(job: &str, out: &mut impl Write) -> Result<Ending, Failure
     {
         row.set("optimal_length_cells", &json!(optimal_length_cells));
     }
-    let told = Told {
+    Ok(Told {
         row: row.values(),
         history: history(&answered),
         path: path(&answered),
-    };
-    serde_json::to_writer(&mut *out, &told).map_err(std::io::Error::from)?;
-    writeln!(out)?;
-    Ok(Ending::Done)
+    })
 }
 
 /// Asks as often as the run says: the answer that counts, what was used for it, and whether all

@@ -1,7 +1,7 @@
 //! The runs of a campaign, from flags or from a file; everything wrong with them is found here,
 //! before anything is started.
 
-use super::{BenchArgs, place, suite, variant};
+use super::{BenchArgs, place, rival, suite, variant};
 use crate::{ground, settings};
 use anyhow::{Result, anyhow};
 use formicar::collision::ObstacleMap;
@@ -96,11 +96,16 @@ impl Runs {
     }
 }
 
+/// The planners of ours.
 pub(super) fn planners(contenders: &[Contender]) -> Vec<PlannerName> {
-    contenders.iter().map(|c| c.planner).collect()
+    let ours = contenders.iter().filter(|c| c.rival.is_none());
+    ours.map(|c| c.planner).collect()
 }
 
 fn config(contender: &Contender) -> Result<ConfigRecord> {
+    if let Some(command) = &contender.rival {
+        return rival::config(&contender.name, command);
+    }
     ConfigRecord::new(&contender.name, &settings::typed(&contender.config)?)
 }
 

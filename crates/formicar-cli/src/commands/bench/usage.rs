@@ -15,7 +15,7 @@ pub(super) fn cpu_s() -> Option<f64> {
 }
 
 /// Ends this process when the one that has started it ends, killed or not; on Linux.
-pub(super) fn end_with_parent() {
+pub(crate) fn end_with_parent() {
     #[cfg(target_os = "linux")]
     {
         // Where it is not allowed the process ends by itself, when its run is over.

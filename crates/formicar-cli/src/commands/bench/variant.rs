@@ -53,5 +53,6 @@ fn contender(name: &str, planner: PlannerName, sets: &[String]) -> Result<Conten
         name: name.to_owned(),
         planner,
         config: settings::merge(blank, sets, Some(planner))?,
+        rival: None,
     })
 }

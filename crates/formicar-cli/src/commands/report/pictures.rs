@@ -43,7 +43,10 @@ fn scenes(stores: &[(String, Stored)]) -> Vec<Scene<'_>> {
     for (record, job) in stores.iter().flat_map(|(_, store)| with_jobs(store)) {
         let place = ["scenario", "vehicle", "motion"].map(|column| record.get(column));
         let planner = record.get("planner");
-        let path = record.path.as_ref().and_then(|path| path.curve_path());
+        let path = record
+            .path
+            .as_ref()
+            .and_then(formicar::planner::PathDocument::curve_path);
         let Some(path) = path.filter(|_| known.insert((place, planner))) else {
             continue;
         };

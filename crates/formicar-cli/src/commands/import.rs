@@ -1,0 +1,259 @@
+//! `import`: files of other planners as rows of results, judged where they hold a path.
+#![allow(clippy::doc_markdown, reason = "clap prints these words as they stand")]
+
+use super::bench::measure;
+use crate::args::GroundArgs;
+use crate::failure::{Ending, Failure};
+use crate::{files, ground, values};
+use anyhow::{Context, Result, anyhow, bail};
+use clap::{Args, ValueHint};
+use formicar::collision::ObstacleMap;
+use formicar::map::builtin::BuiltinMap;
+use formicar::map::format::write_atomically;
+use formicar::scenario::{GoalTolerance, MotionMode, Request};
+use formicar_lab::campaign::{OWN_VEHICLE, Record, read_csv, to_csv};
+use formicar_lab::rival::import::{Imported, read};
+use serde_json::json;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Flags of `import`.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Every file is a run, with the seeds from --seed on; every run of an OMPL log is one. The scenario \
+goes by the name that it has in a campaign, so that `report` and `compare` table the rows beside \
+ours. Rows of the same scenario, vehicle, motion mode, planner and seed are replaced.")]
+pub(crate) struct ImportArgs {
+    /// Paths as CSV of x, y[, heading] or as nav_msgs/Path in JSON, or benchmark logs of OMPL.
+    #[arg(required = true, value_hint = ValueHint::FilePath)]
+    files: Vec<PathBuf>,
+
+    /// Name of the planner; an OMPL log names its own.
+    #[arg(long, value_name = "NAME")]
+    planner: Option<String>,
+
+    /// Name of the scenario; the id of the scenario or request by default.
+    #[arg(long, value_name = "NAME")]
+    name: Option<String>,
+
+    /// Seed of the first run.
+    #[arg(long, value_name = "N", default_value_t = 0,
+          value_parser = clap::value_parser!(u64).range(..=1_000_000_000))]
+    seed: u64,
+
+    /// Time of the query that has found the path, seconds.
+    #[arg(long, value_name = "S", value_parser = values::positive, allow_hyphen_values = true)]
+    query: Option<f64>,
+
+    /// Time to the first path, seconds.
+    #[arg(long, value_name = "S", value_parser = values::positive, allow_hyphen_values = true)]
+    first: Option<f64>,
+
+    /// Which gears the planner might use.
+    #[arg(long, value_name = "MODE", default_value = "reverse",
+          value_parser = values::word::<MotionMode>(&["forward", "reverse"]))]
+    motion: MotionMode,
+
+    /// How far the path may end off the goal, metres and radians: planners over grids of poses
+    /// seldom end nearer than a cell.
+    #[arg(long, value_name = "M,RAD", value_parser = values::goal_tolerance)]
+    goal_tolerance: Option<GoalTolerance>,
+
+    /// Take the word of a log for paths that it does not hold: they count as solved, and their
+    /// planner is called NAME (own word).
+    #[arg(long)]
+    trust: bool,
+
+    #[command(flatten)]
+    ground: GroundArgs,
+
+    /// Table that takes the rows; made where it does not exist.
+    #[arg(long, value_name = "F.csv", value_hint = ValueHint::FilePath)]
+    out: PathBuf,
+}
+
+/// What all runs share.
+struct Place {
+    scenario: String,
+    source: String,
+    obstacles: ObstacleMap,
+    vehicle: formicar::vehicle::Vehicle,
+    request: Request,
+}
+
+/// Carries out `import`.
+pub(crate) fn run(args: &ImportArgs, out: &mut impl Write) -> Result<Ending, Failure> {
+    let place = Place::of(args)?;
+    let mut records = Vec::new();
+    for (path, seed) in args.files.iter().zip(args.seed..) {
+        let name = || path.display().to_string();
+        let runs = read(&files::read_document(path)?).with_context(name)?;
+        for imported in &runs {
+            records.push(record(args, &place, imported, seed).with_context(name)?);
+        }
+    }
+    let rows = merged(&args.out, &records)?;
+    write_atomically(&args.out, to_csv(&rows)?.as_bytes())
+        .with_context(|| format!("{} cannot be written", args.out.display()))?;
+    for record in &records {
+        writeln!(out, "{}", line(record))?;
+    }
+    let file = args.out.display();
+    writeln!(
+        out,
+        "{} runs of {} are new: see {file}",
+        records.len(),
+        rows.len()
+    )?;
+    Ok(Ending::Done)
+}
+
+impl Place {
+    fn of(args: &ImportArgs) -> Result<Self> {
+        let ground = ground::load(&args.ground)?;
+        let (scenario, source) = names(args)?;
+        let hint = "the map has no start and goal; hint: --scenario F, or a built-in map";
+        let [start, goal] = ground.ends.context(hint)?;
+        let request = Request {
+            motion: args.motion,
+            goal_tolerance: args.goal_tolerance.unwrap_or_default(),
+            ..Request::new(start, goal)
+        };
+        Ok(Self {
+            scenario,
+            source,
+            obstacles: ObstacleMap::new(&ground.map),
+            vehicle: ground.vehicle.vehicle,
+            request,
+        })
+    }
+}
+
+/// The names of scenario and source that `bench` gives them.
+fn names(args: &ImportArgs) -> Result<(String, String)> {
+    let stem = |path: &Path| -> Result<String> {
+        let stem = path.file_stem().and_then(|stem| stem.to_str());
+        Ok(stem
+            .with_context(|| format!("{}: a name in UTF-8 is needed", path.display()))?
+            .to_owned())
+    };
+    let ground = &args.ground;
+    let (by_default, source) = match (&ground.scenario, &ground.map) {
+        (Some(path), _) => (
+            ground.id.clone().map_or_else(|| first_id(path), Ok)?,
+            stem(path)?,
+        ),
+        (None, Some(map)) => match BuiltinMap::by_name(map) {
+            Ok(builtin) => {
+                let first = builtin.requests.first().map_or("", |request| request.id);
+                let id = ground.request.as_deref().unwrap_or(first);
+                (format!("{map}-{id}"), map.clone())
+            }
+            Err(_) => (stem(Path::new(map))?, stem(Path::new(map))?),
+        },
+        (None, None) => bail!("a scenario is needed; hint: --scenario F --id ID, or --map NAME"),
+    };
+    Ok((args.name.clone().unwrap_or(by_default), source))
+}
+
+/// The id of the only scenario of a file.
+fn first_id(path: &Path) -> Result<String> {
+    let id = match files::ScenarioFile::read(path)? {
+        files::ScenarioFile::Cars(cars) => cars.rows().into_iter().next().map(|(id, _)| id),
+        files::ScenarioFile::Tpcap(case) => Some(case.row().0),
+    };
+    id.with_context(|| format!("{}: it holds no scenarios", path.display()))
+}
+
+/// A run as a row, with where it comes from.
+fn record(args: &ImportArgs, place: &Place, imported: &Imported, seed: u64) -> Result<Record> {
+    let mut record = Record::default();
+    let row = &mut record.row;
+    let planner = args.planner.as_ref().or(imported.planner.as_ref());
+    let planner =
+        planner.ok_or_else(|| anyhow!("the file names no planner; hint: --planner NAME"))?;
+    let is_trusted = args.trust && imported.samples.is_none() && imported.is_found;
+    let named = if args.trust && imported.samples.is_none() {
+        format!("{planner} (own word)")
+    } else {
+        planner.clone()
+    };
+    row.set("scenario", &json!(place.scenario));
+    row.set("planner", &json!(named));
+    row.set("seed", &json!(seed + imported.run));
+    row.set("source", &json!(place.source));
+    row.set(
+        "status",
+        &json!(if imported.is_found {
+            "found"
+        } else {
+            "not_found"
+        }),
+    );
+    row.set("query_s", &json!(args.query));
+    row.set("first_feasible_s", &json!(args.first));
+    let on = (&place.obstacles, &place.vehicle);
+    measure::ground(row, on, [place.request.start, place.request.goal]);
+    for (column, value) in &imported.measured {
+        row.set(column, &json!(value));
+    }
+    match &imported.samples {
+        Some(samples) => drop(measure::verdict(row, on, &place.request, samples)),
+        None if imported.is_found => {
+            row.set("valid", &json!(is_trusted.then_some(true)));
+            row.set("reason", &json!("its log holds no path: not judged"));
+        }
+        None => {}
+    }
+    let motion = match args.motion {
+        MotionMode::Forward => "forward",
+        MotionMode::Reverse => "reverse",
+    };
+    let origin = &mut record.origin;
+    origin.set(
+        "vehicle",
+        args.ground.vehicle.as_deref().unwrap_or(OWN_VEHICLE),
+    );
+    origin.set("motion", motion);
+    origin.set("version", env!("CARGO_PKG_VERSION"));
+    origin.set("map_hash", &format!("{:032x}", place.obstacles.hash()));
+    origin.set("vehicle_hash", &format!("{:032x}", place.vehicle.hash()));
+    Ok(record)
+}
+
+/// The rows of a table with new ones in the place of those that they replace, or behind all.
+fn merged(path: &Path, new: &[Record]) -> Result<Vec<Record>> {
+    let mut rows = if path.exists() {
+        read_csv(&files::read_text(path)?).with_context(|| path.display().to_string())?
+    } else {
+        Vec::new()
+    };
+    for record in new {
+        match rows.iter_mut().find(|row| key(row) == key(record)) {
+            Some(row) => row.clone_from(record),
+            None => rows.push(record.clone()),
+        }
+    }
+    Ok(rows)
+}
+
+fn key(record: &Record) -> [&str; 5] {
+    ["scenario", "vehicle", "motion", "planner", "seed"].map(|column| record.get(column))
+}
+
+fn line(record: &Record) -> String {
+    let [scenario, planner, seed] = ["scenario", "planner", "seed"].map(|c| record.get(c));
+    let verdict = match (record.get("status"), record.get("valid")) {
+        ("found", "true") if record.get("reason").is_empty() => "valid",
+        ("found", "false") => "invalid",
+        ("found", _) => "found",
+        (status, _) => status,
+    };
+    let reason = record.get("reason");
+    let reason = if reason.is_empty() {
+        String::new()
+    } else {
+        format!(": {reason}")
+    };
+    format!("{scenario}  {planner}  seed {seed}  {verdict}{reason}")
+}

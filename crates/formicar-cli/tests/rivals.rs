@@ -1,0 +1,281 @@
+//! Programs of others in a campaign: judged, tabled beside ours, and told apart where they fail.
+#![cfg(unix)]
+#![allow(clippy::unwrap_used, reason = "a test may fail where it likes")]
+
+mod common;
+
+use common::Room;
+use std::collections::BTreeMap;
+
+/// The rows of a table by planner, each by column.
+fn rows(text: &str) -> BTreeMap<String, BTreeMap<String, String>> {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let rows = reader.deserialize::<BTreeMap<String, String>>();
+    let keyed = rows.map(|row| {
+        let row = row.unwrap();
+        (row["planner"].clone(), row)
+    });
+    keyed.collect()
+}
+
+/// A shell script that answers any question, and says `ready` where its version is asked.
+fn script(answer: &str) -> String {
+    format!(
+        "#!/bin/sh\nif grep -q '\"ask\":\"version\"'; then echo '{{\"status\": \"ready\", \
+         \"version\": \"it 1\"}}'; else {answer}; fi\n"
+    )
+}
+
+fn planner(name: &str, command: &str) -> String {
+    format!("[[planner]]\nname = \"{name}\"\ncommand = [{command}]\n")
+}
+
+/// A dead straight way of 3 m for a small vehicle, in the left half of the room.
+const SCENARIO: &str = r#"{"version": 1, "scenarios": [{"id": "s", "map": "room.yaml",
+    "resolution": 0.2, "start": [2, 4, 0], "goal": [5, 4, 0], "vehicle": {"wheelbase": 0.3,
+    "max_steer_deg": 30, "length": 0.5, "width": 0.3, "rear_overhang": 0.1,
+    "front_overhang": 0.1, "reference": "rear_axle"}}]}"#;
+
+#[test]
+fn paths_of_programs_are_judged_and_tabled_beside_ours() {
+    let room = Room::new();
+    room.write("s.json", SCENARIO);
+    let found = |poses: &str, more: &str| {
+        script(&format!(
+            "echo '{{\"status\": \"found\", \"version\": \"it 1\", \"poses\": {poses}{more}}}'"
+        ))
+    };
+    room.write(
+        "straight.sh",
+        found("[[2, 4, 0], [3, 4, 0], [5, 4, 0]]", ", \"query_s\": 0.001"),
+    );
+    room.write("jump.sh", found("[[2, 4, 0], [3, 5, 1.5], [5, 4, 0]]", ""));
+    room.write("points.sh", found("[[2, 4], [3, 4], [5, 4]]", ""));
+    room.write("odd.sh", script("echo '{\"status\": \"found\"}'"));
+    room.write("dies.sh", script("echo no luck >&2; exit 4"));
+    room.write(
+        "none.sh",
+        script("echo '{\"status\": \"not_found\", \"reason\": \"so be it\"}'"),
+    );
+    let names = ["straight", "jump", "points", "odd", "dies", "none"];
+    let programs = names.map(|name| planner(name, &format!("\"sh\", \"{name}.sh\"")));
+    room.write(
+        "c.toml",
+        format!(
+            "[[scenarios]]\nfile = \"s.json\"\n[[planner]]\nplanner = \"hybrid-astar\"\n{}{}",
+            programs.concat(),
+            planner("cells", "\"formicar\", \"rival\", \"pathfinding\"")
+        ),
+    );
+    let run = room.run(&["bench", "c.toml", "--store", "s.sqlite"]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    let rows = rows(&room.read("s.csv"));
+    assert_eq!(rows.len(), 8);
+    let of = |planner: &str, columns: [&str; 3]| columns.map(|c| rows[planner][c].clone());
+    for planner in ["hybrid-astar", "straight", "points"] {
+        let [status, valid, length_m] = of(planner, ["status", "valid", "length_m"]);
+        assert_eq!([status.as_str(), &valid], ["found", "true"], "{planner}");
+        let length_m: f64 = length_m.parse().unwrap();
+        assert!((length_m - 3.0).abs() < 0.02, "{planner}: {length_m}");
+    }
+    assert_eq!(rows["straight"]["query_s"], "0.001");
+    assert_eq!(rows["straight"]["first_feasible_s"], "0.001");
+    let [status, valid, reason] = of("jump", ["status", "valid", "reason"]);
+    assert_eq!([status.as_str(), &valid], ["found", "false"]);
+    assert!(reason.contains("turns on the spot"), "{reason}");
+    for (planner, status, told) in [
+        ("odd", "crashed", "poses: none"),
+        ("dies", "crashed", "exit status: 4: no luck"),
+        ("none", "not_found", "so be it"),
+        ("cells", "refused", "for points"),
+    ] {
+        assert_eq!(rows[planner]["status"], status, "{planner}");
+        assert!(rows[planner]["reason"].contains(told), "{planner}");
+    }
+    let hashes = names.map(|name| rows[name]["config_hash"].clone());
+    assert_ne!(hashes[0], hashes[1]);
+    // Another program under the same name is another campaign.
+    room.write("jump.sh", found("[[2, 4, 0]]", ""));
+    let again = room.run(&["bench", "c.toml", "--store", "s.sqlite"]);
+    again.assert_refused(&["another campaign", "8 runs, of which 7"]);
+    let page = room.run(&["report", "s.sqlite", "--out", "page"]);
+    assert!(page.stdout.contains("| straight | 1/1"), "{}", page.stdout);
+    assert!(room.read("page/index.html").contains("straight.sh"));
+}
+
+#[test]
+fn over_cells_the_crate_finds_ways_as_short_as_ours() {
+    let room = Room::new();
+    let rows_of_map = [
+        "..........",
+        "..@@@@....",
+        ".....@....",
+        "..@..@....",
+        "..@.......",
+    ];
+    let map = format!(
+        "type octile\nheight 5\nwidth 10\nmap\n{}\n",
+        rows_of_map.join("\n")
+    );
+    room.write("m.map", map);
+    room.write(
+        "m.map.scen",
+        "version 1\n0\tm.map\t10\t5\t4\t3\t9\t0\t9.65685425\n0\tm.map\t10\t5\t0\t4\t9\t4\t9.82842712\n",
+    );
+    let cells = planner("pathfinding", "\"formicar\", \"rival\", \"pathfinding\"");
+    room.write(
+        "c.toml",
+        format!("[[scenarios]]\nfile = \"m.map.scen\"\n[[planner]]\nplanner = \"astar\"\n{cells}"),
+    );
+    let run = room.run(&["bench", "c.toml", "--store", "s.sqlite"]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    let text = room.read("s.csv");
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let rows: Vec<BTreeMap<String, String>> =
+        reader.deserialize().collect::<Result<_, _>>().unwrap();
+    assert_eq!(rows.len(), 4);
+    for pair in rows.chunks(2) {
+        let lengths = [&pair[0], &pair[1]].map(|row| {
+            assert_eq!(
+                (row["status"].as_str(), row["valid"].as_str()),
+                ("found", "true")
+            );
+            row["length_cells"].parse::<f64>().unwrap()
+        });
+        assert!((lengths[0] - lengths[1]).abs() < 1e-6, "{lengths:?}");
+    }
+}
+
+#[test]
+fn programs_that_do_not_start_are_told_before_any_run() {
+    let room = Room::new();
+    room.write("s.json", SCENARIO);
+    for (command, told) in [
+        ("\"./no-such-program\"", "it cannot be started"),
+        ("\"sh\", \"-c\", \"echo once upon a time\"", "its answer"),
+        ("\"sh\", \"-c\", \"exit 7\"", "exit status: 7"),
+        ("\"formicar\", \"rival\", \"pathfinder\"", "pathfinder"),
+    ] {
+        let rival = planner("it", command);
+        room.write(
+            "c.toml",
+            format!("[[scenarios]]\nfile = \"s.json\"\n{rival}"),
+        );
+        let run = room.run(&["bench", "c.toml", "--store", "s.sqlite"]);
+        run.assert_refused(&["planner \"it\"", told]);
+    }
+}
+
+#[test]
+fn files_of_others_are_judged_and_tabled_beside_ours() {
+    let room = Room::new();
+    room.write("s.json", SCENARIO);
+    room.write("good.csv", "x,y,yaw\n2,4,0\n3,4,0\n5,4,0\n");
+    room.write("short.csv", "2,4,0\n3,4,0\n");
+    let pose = |x: f64| {
+        format!(
+            r#"{{"pose": {{"position": {{"x": {x}, "y": 4}}, "orientation": {{"z": 0, "w": 1}}}}}}"#
+        )
+    };
+    room.write(
+        "nav.json",
+        format!(r#"{{"poses": [{}, {}]}}"#, pose(2.0), pose(5.0)),
+    );
+    room.write(
+        "door.log",
+        "OMPL version 2.0.1\nExperiment door\n1 planners\ngeometric_RRT\n0 common properties\n\
+         3 properties for each run\nsolved BOOLEAN\ntime REAL\nsolution length REAL\n2 runs\n\
+         1; 0.25; 3.5; \n0; 1; 0; \n.\n",
+    );
+    let import = |words: &[&str]| {
+        let shared = ["import", "--scenario", "s.json", "--out", "r.csv"];
+        room.run(&[&shared[..], words].concat())
+    };
+    let run = import(&[
+        "good.csv",
+        "short.csv",
+        "--planner",
+        "lattice",
+        "--query",
+        "0.5",
+    ]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    assert!(
+        run.stdout.contains("s  lattice  seed 0  valid\n"),
+        "{}",
+        run.stdout
+    );
+    assert!(
+        run.stdout
+            .contains("seed 1  invalid: the path misses the goal"),
+        "{}",
+        run.stdout
+    );
+    // Once more, with a goal that is reached more loosely: the row is replaced.
+    let loose = [
+        "--goal-tolerance",
+        "2.5,0.1",
+        "--seed",
+        "1",
+        "--planner",
+        "lattice",
+    ];
+    let run = import(&[&["short.csv"], &loose[..]].concat());
+    assert!(run.stdout.contains("1 runs of 2 are new"), "{}", run.stdout);
+    assert_eq!(import(&["nav.json", "--planner", "nav"]).code, 0);
+    assert!(
+        import(&["door.log"])
+            .stdout
+            .contains("geometric_RRT  seed 0  found: its log holds no")
+    );
+    assert_eq!(import(&["door.log", "--trust"]).code, 0);
+    room.write(
+        "c.toml",
+        "[[scenarios]]\nfile = \"s.json\"\n[[planner]]\nplanner = \"hybrid-astar\"\n",
+    );
+    assert_eq!(
+        room.run(&["bench", "c.toml", "--store", "o.sqlite"]).code,
+        0
+    );
+    let page = room.run(&["report", "o.sqlite", "r.csv", "--out", "page"]);
+    assert_eq!((page.code, page.stderr.as_str()), (0, ""));
+    for row in [
+        "| hybrid-astar | 1/1",
+        "| lattice | 2/2",
+        "| nav | 1/1",
+        "| geometric_RRT | 0/2",
+        "| geometric_RRT (own word) | 1/2",
+    ] {
+        assert!(page.stdout.contains(row), "no {row:?} in: {}", page.stdout);
+    }
+    let only = [
+        "import",
+        "--scenario",
+        "s.json",
+        "nav.json",
+        "--planner",
+        "nav",
+        "--out",
+        "n.csv",
+    ];
+    assert_eq!(room.run(&only).code, 0);
+    let compared = room.run(&["compare", "o.sqlite", "n.csv"]);
+    assert_eq!((compared.code, compared.stderr.as_str()), (0, ""));
+    for (name, text, words) in [
+        ("a.csv", "1,2,3\n1,two,3\n", ["a.csv", "line 2", "\"two\""]),
+        (
+            "b.json",
+            "{\"poses\": [{}]}",
+            ["b.json", "nav_msgs/Path", "missing field `pose`"],
+        ),
+        (
+            "c.log",
+            "OMPL version 2\n1 planners\nRRT\nodd\n",
+            ["c.log", "line 4", "common properties"],
+        ),
+    ] {
+        room.write(name, text);
+        import(&[name, "--planner", "it"]).assert_refused(&words);
+    }
+    import(&["good.csv"]).assert_refused(&["good.csv", "--planner NAME"]);
+}

@@ -1,0 +1,106 @@
+//! Files of other planners: paths to be judged, or what their benchmark measured.
+
+mod nav_path;
+mod ompl_log;
+
+use anyhow::{Context, Result};
+use formicar::validation::Samples;
+
+/// A run out of a file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Imported {
+    /// The planner, where the file names it.
+    pub planner: Option<String>,
+    /// Its place among the runs of this planner, from 0 on.
+    pub run: u64,
+    /// Whether the planner says that it has found a path.
+    pub is_found: bool,
+    /// Its path, where the file holds one.
+    pub samples: Option<Samples>,
+    /// What it measured of itself, by column of `results.csv`.
+    pub measured: Vec<(&'static str, f64)>,
+}
+
+/// What a file is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Lines of x, y\[, heading\].
+    Poses,
+    /// A `nav_msgs/Path` as JSON.
+    NavPath,
+    /// A benchmark log of OMPL.
+    OmplLog,
+}
+
+impl Format {
+    /// What a text looks like.
+    pub fn of(text: &str) -> Self {
+        let text = text.trim_start();
+        if text.starts_with(['{', '[']) {
+            Self::NavPath
+        } else if text.starts_with("OMPL version") || text.starts_with("Experiment ") {
+            Self::OmplLog
+        } else {
+            Self::Poses
+        }
+    }
+}
+
+/// The runs of a file.
+///
+/// # Errors
+/// What is wrong with it, by line and field.
+pub fn read(text: &str) -> Result<Vec<Imported>> {
+    let of_path = |samples| {
+        vec![Imported {
+            is_found: true,
+            samples: Some(samples),
+            ..Imported::default()
+        }]
+    };
+    match Format::of(text) {
+        Format::Poses => Ok(of_path(Samples::from_csv(text)?)),
+        Format::NavPath => nav_path::read(text).map(of_path).context("nav_msgs/Path"),
+        Format::OmplLog => ompl_log::read(text).context("OMPL benchmark log"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_told_apart() {
+        assert_eq!(Format::of("\n {\"poses\": []}"), Format::NavPath);
+        assert_eq!(Format::of("OMPL version 2.0.1\n"), Format::OmplLog);
+        assert_eq!(Format::of("x,y\n1,2\n"), Format::Poses);
+        let runs = read("1,2,0.5\n2,2,0.5\n").unwrap();
+        assert_eq!(runs[0].samples.as_ref().unwrap().points.len(), 2);
+        assert!(read("1,2\n3\n").unwrap_err().to_string().contains("line 2"));
+    }
+
+    /// Every beginning of a text, and the text with each of some bytes in each place, is read or
+    /// refused in words.
+    pub(super) fn assert_no_text_panics(text: &str, try_read: impl Fn(&str)) {
+        let ends = text.char_indices().map(|(i, _)| i);
+        for end in ends.clone().step_by(3) {
+            try_read(&text[..end]);
+        }
+        for at in ends.step_by(5) {
+            for odd in [
+                "",
+                "-",
+                "9",
+                "\"",
+                "\n",
+                ";",
+                "nan",
+                "99999999999999999999",
+                "\u{e9}",
+            ] {
+                let rest = text[at..].chars().next().map_or(at, |c| at + c.len_utf8());
+                try_read(&format!("{}{odd}{}", &text[..at], &text[rest..]));
+            }
+        }
+    }
+}

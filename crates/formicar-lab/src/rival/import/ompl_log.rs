@@ -1,0 +1,241 @@
+//! A benchmark log of OMPL (Moll, Sucan & Kavraki 2015, *Benchmarking motion planning
+//! algorithms*): rows of metrics for each run of each planner, without paths.
+
+use super::Imported;
+use anyhow::{Context, Result, anyhow, bail};
+use std::iter::{Enumerate, Peekable};
+use std::str::Lines;
+
+/// Properties that are used; the time of a planner is without that of simplification.
+const USED: [&str; 6] = [
+    "solved",
+    "approximate solution",
+    "time",
+    "simplification time",
+    "solution length",
+    "simplified solution length",
+];
+
+/// Most lines that a count may announce.
+const MAX_LINES: usize = 1_000_000;
+
+/// The lines that are still to be read, each with its number.
+struct Rest<'a>(Peekable<Enumerate<Lines<'a>>>);
+
+/// All runs of all planners.
+pub(super) fn read(text: &str) -> Result<Vec<Imported>> {
+    let mut rest = Rest(text.lines().enumerate().peekable());
+    let n_planners = rest.skip_to_planners()?;
+    let mut runs = Vec::new();
+    for _ in 0..n_planners {
+        runs.extend(planner(&mut rest)?);
+    }
+    Ok(runs)
+}
+
+fn planner(rest: &mut Rest) -> Result<Vec<Imported>> {
+    let (_, name) = rest.line("the name of a planner")?;
+    let n_common = rest.count("common properties")?;
+    for _ in 0..n_common {
+        rest.line("a common property")?;
+    }
+    let n_properties = rest.count("properties for each run")?;
+    let mut names = Vec::new();
+    for _ in 0..n_properties {
+        let (number, line) = rest.line("a property")?;
+        let (name, _) = line.rsplit_once(' ').with_context(|| {
+            format!(
+                "line {number}: {:?}; expected a property and its type",
+                short(line)
+            )
+        })?;
+        names.push(name);
+    }
+    let n_runs = rest.count("runs")?;
+    let mut runs = Vec::new();
+    for run in 0..n_runs {
+        let (number, line) = rest.line("a run")?;
+        let values = values(line, &names).with_context(|| format!("line {number}"))?;
+        runs.push(imported(name, run as u64, &values));
+    }
+    rest.skip_past_dot()?;
+    Ok(runs)
+}
+
+/// The numbers of a run by property; those that are left empty are none.
+fn values<'a>(line: &str, names: &[&'a str]) -> Result<Vec<(&'a str, f64)>> {
+    let fields: Vec<&str> = line.trim_end().trim_end_matches(';').split(';').collect();
+    if fields.len() != names.len() {
+        bail!(
+            "{} values; there are {} properties",
+            fields.len(),
+            names.len()
+        );
+    }
+    let mut values = Vec::new();
+    for (&name, field) in names.iter().zip(fields) {
+        match field.trim() {
+            "" => {}
+            // Properties of planners may be words; none of ours are.
+            field => match field.parse() {
+                Ok(value) => values.push((name, value)),
+                Err(_) if USED.contains(&name) => {
+                    bail!("{name}: {:?}; expected a number", short(field));
+                }
+                Err(_) => {}
+            },
+        }
+    }
+    Ok(values)
+}
+
+fn imported(planner: &str, run: u64, values: &[(&str, f64)]) -> Imported {
+    let of = |name: &str| {
+        let value = values.iter().find(|(other, _)| *other == name);
+        value.map(|(_, value)| *value)
+    };
+    let is_true = |name: &str| of(name).is_some_and(|value| value != 0.0);
+    let is_found = is_true("solved") && !is_true("approximate solution");
+    let is_known = |value: &f64| value.is_finite() && *value >= 0.0;
+    let simplified_s = of("simplification time").filter(is_known);
+    let query_s = of("time").map(|time_s| time_s + simplified_s.unwrap_or(0.0));
+    // A length of 0 stands where there is no path.
+    let is_length = |length_m: &f64| is_found && is_known(length_m) && *length_m > 0.0;
+    let length_m = of("simplified solution length").filter(is_length);
+    let length_m = length_m.or_else(|| of("solution length").filter(is_length));
+    let measured = [
+        query_s.filter(is_known).map(|value| ("query_s", value)),
+        length_m.map(|value| ("length_m", value)),
+    ];
+    Imported {
+        planner: Some(planner.to_owned()),
+        run,
+        is_found,
+        samples: None,
+        measured: measured.into_iter().flatten().collect(),
+    }
+}
+
+impl<'a> Rest<'a> {
+    /// The next line, counted from 1.
+    fn line(&mut self, what: &str) -> Result<(usize, &'a str)> {
+        let line = self.0.next().map(|(i, line)| (i + 1, line.trim()));
+        line.with_context(|| format!("it ends before {what}; hint: the file is cut off"))
+    }
+
+    /// The number in a line like `23 properties for each run`.
+    fn count(&mut self, what: &str) -> Result<usize> {
+        let (number, line) = self.line(what)?;
+        count(line, what)
+            .ok_or_else(|| anyhow!("line {number}: {:?}; expected N {what}", short(line)))
+    }
+
+    /// Passes the preamble, with its blocks of any text between `<<<|` and `|>>>`.
+    fn skip_to_planners(&mut self) -> Result<usize> {
+        let mut is_block = false;
+        loop {
+            let (_, line) = self.line("a line like \"2 planners\"")?;
+            match (is_block, line) {
+                (false, "<<<|") => is_block = true,
+                (true, "|>>>") => is_block = false,
+                (false, line) => {
+                    if let Some(n) = count(line, "planners") {
+                        return Ok(n);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Passes what a planner tells of its progress; a dot ends a planner.
+    fn skip_past_dot(&mut self) -> Result<()> {
+        loop {
+            if self.line("the dot at the end of a planner")?.1 == "." {
+                return Ok(());
+            }
+        }
+    }
+}
+
+fn count(line: &str, what: &str) -> Option<usize> {
+    let (number, words) = line.split_once(' ')?;
+    let is_it = words.trim() == what || words.trim() == what.trim_end_matches('s');
+    // Some versions write `10 runs per planner` in the preamble, which is another matter.
+    number.parse().ok().filter(|&n| is_it && n <= MAX_LINES)
+}
+
+/// As much of a line as a message should repeat.
+fn short(text: &str) -> String {
+    text.chars().take(40).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LOG: &str = "OMPL version 2.0.1\nExperiment door\n0 experiment properties\nRunning on a\n\
+        <<<|\n3 planners\n|>>>\n7 is the random seed\n2 runs per planner\n1 enum type\n\
+        status|Timeout|Exact solution\n2 planners\ngeometric_RRTConnect\n1 common properties\n\
+        range = 3.1\n5 properties for each run\nsolved BOOLEAN\ntime REAL\nsolution length REAL\n\
+        simplified solution length REAL\nnote STRING\n2 runs\n1; 0.25; 12.5; 11.0; fine; \n\
+        0; 0.5; inf; 0; ; \n.\ngeometric_RRTstar\n0 common properties\n\
+        5 properties for each run\nsimplification time REAL\napproximate solution BOOLEAN\nsolved BOOLEAN\ntime REAL\n\
+        solution length REAL\n1 runs\n0.25; 1; 1; 0.5; 9; \n2 progress properties for each run\n\
+        iterations INTEGER\ntime REAL\n1 runs\n0,0.05,;1,0.1,;\n.\n";
+
+    #[test]
+    fn runs_come_out_with_their_metrics() {
+        let runs = read(LOG).unwrap();
+        assert_eq!(runs.len(), 3);
+        assert_eq!(runs[0].planner.as_deref(), Some("geometric_RRTConnect"));
+        assert_eq!(runs[0].measured, [("query_s", 0.25), ("length_m", 11.0)]);
+        assert!(runs[0].is_found && runs[0].run == 0);
+        assert_eq!(runs[1].measured, [("query_s", 0.5)]);
+        assert!(!runs[1].is_found && runs[1].run == 1);
+        // An approximate solution does not reach the goal.
+        assert_eq!(runs[2].planner.as_deref(), Some("geometric_RRTstar"));
+        assert!(!runs[2].is_found);
+        assert_eq!(runs[2].measured, [("query_s", 0.75)]);
+    }
+
+    #[test]
+    fn what_is_wrong_is_told_by_its_line() {
+        for (from, to, told) in [
+            (
+                "1; 0.25; 12.5",
+                "1; soon; 12.5",
+                "line 23: time: \"soon\"; expected a number",
+            ),
+            (
+                "1; 0.25; 12.5",
+                "1; 12.5",
+                "line 23: 4 values; there are 5 properties",
+            ),
+            (
+                "2 runs\n1;",
+                "some runs\n1;",
+                "line 22: \"some runs\"; expected N runs",
+            ),
+            (
+                "note STRING",
+                "note",
+                "line 21: \"note\"; expected a property",
+            ),
+            (
+                "\n2 planners",
+                "\n2 plans",
+                "it ends before a line like \"2 planners\"",
+            ),
+            ("0,0.05,;1,0.1,;\n.\n", "", "it ends before the dot"),
+        ] {
+            let error = format!("{:#}", read(&LOG.replace(from, to)).unwrap_err());
+            assert!(error.contains(told), "{told}: {error}");
+        }
+    }
+
+    #[test]
+    fn no_text_makes_it_panic() {
+        super::super::tests::assert_no_text_panics(LOG, |text| drop(read(text)));
+    }
+}

@@ -1,0 +1,160 @@
+//! The judge's word on a foreign path, for a request.
+
+use formicar::collision::ObstacleMap;
+use formicar::path::{CurvePath, Direction};
+use formicar::scenario::Request;
+use formicar::validation::{
+    FOREIGN_CURVATURE_SLACK, Report, Samples, Violation, ViolationKind, judge,
+};
+use formicar::vehicle::{Motion, Vehicle};
+
+/// How far a sampled path may begin from the start, metres and radians: its samples are rounded.
+pub const START_TOLERANCE: f64 = 1e-3;
+
+/// A path read from samples, with the judge's findings.
+#[derive(Clone, Debug)]
+pub struct Verdict {
+    /// The path that was judged.
+    pub path: CurvePath,
+    /// The findings; the slack that samples get is taken off.
+    pub report: Report,
+}
+
+impl Verdict {
+    /// On samples; none where there are none. Points do not tell the gears: of their two ways the
+    /// second is taken where it alone is valid.
+    pub fn new(
+        obstacles: &ObstacleMap,
+        vehicle: &Vehicle,
+        request: &Request,
+        samples: &Samples,
+    ) -> Option<Self> {
+        let on = |path: CurvePath| {
+            let report = with_slack(judge(obstacles, vehicle, request, &path));
+            Self { path, report }
+        };
+        if samples.points.is_empty() {
+            return None;
+        }
+        if vehicle.motion() == Motion::Point {
+            return Some(on(CurvePath::from_polyline(&samples.points)));
+        }
+        let first = on(samples.path(Direction::Forward)?);
+        if first.report.valid || samples.headings.is_some() {
+            return Some(first);
+        }
+        let exchanged = on(samples.path(Direction::Reverse)?);
+        Some(if exchanged.report.valid {
+            exchanged
+        } else {
+            first
+        })
+    }
+
+    /// Why it cannot be driven, in a sentence or two.
+    pub fn reason(&self) -> Option<String> {
+        let violations = &self.report.violations;
+        let first = violations.first()?;
+        Some(match violations.len() {
+            1 => first.message.clone(),
+            n => format!("{} (the first of {n})", first.message),
+        })
+    }
+
+    /// Whether it is of a size that can be measured: a path that lies elsewhere may be endless.
+    pub fn is_measurable(&self, obstacles: &ObstacleMap) -> bool {
+        let extent = obstacles.frame().extent_m();
+        let is_malformed = |v: &Violation| v.kind == ViolationKind::Malformed;
+        let is_short = self.path.length_m() <= MAX_LAPS * (extent.x + extent.y);
+        is_short && !self.report.violations.iter().any(is_malformed)
+    }
+}
+
+/// Longest path that is measured, in times the width and height of the map.
+const MAX_LAPS: f64 = 100.0;
+
+/// Findings without those that rounding and sampling may cause.
+fn with_slack(mut report: Report) -> Report {
+    report.violations.retain(|violation| match violation.kind {
+        ViolationKind::Curvature => {
+            violation.amount > violation.limit * (1.0 + FOREIGN_CURVATURE_SLACK)
+        }
+        ViolationKind::Start => violation.amount > START_TOLERANCE,
+        _ => true,
+    });
+    report.valid = report.violations.is_empty();
+    report
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use formicar::geometry::{Point2, Pose2};
+    use formicar::map::OccupancyGrid;
+
+    fn ground() -> (ObstacleMap, Vehicle, Request) {
+        let rows = ["..........................................."; 12];
+        let map = OccupancyGrid::from_rows(&rows, 0.5).unwrap();
+        let request = Request::new(Pose2::new(4.0, 3.0, 0.0), Pose2::new(12.0, 3.0, 0.0));
+        (ObstacleMap::new(&map), Vehicle::sedan(), request)
+    }
+
+    fn line(from: f64, to: f64, offset: f64) -> Samples {
+        let xs = (0..=80).map(|i| from + (to - from) * f64::from(i) / 80.0);
+        let points: Vec<_> = xs.map(|x| Point2::new(x, 3.0 + offset)).collect();
+        Samples {
+            headings: Some(vec![0.0; points.len()]),
+            points,
+            rounding_m: 0.0,
+        }
+    }
+
+    #[test]
+    fn a_path_from_start_to_goal_is_valid() {
+        let (obstacles, vehicle, request) = ground();
+        let of = |samples: &Samples| Verdict::new(&obstacles, &vehicle, &request, samples).unwrap();
+        assert_eq!(of(&line(4.0, 12.0, 0.0)).reason(), None);
+        assert!(of(&line(4.0, 12.0, 0.0005)).report.valid);
+        let off = of(&line(4.0, 12.0, 0.002));
+        assert!(off.reason().unwrap().contains("misses the start"));
+        let short = of(&line(4.0, 10.0, 0.0));
+        assert!(short.reason().unwrap().contains("misses the goal"));
+        let far = of(&line(4.0, 1e6, 0.0));
+        assert!(!far.report.valid && !far.is_measurable(&obstacles));
+        let bare = Samples {
+            headings: None,
+            ..line(4.0, 12.0, 0.0)
+        };
+        assert!(of(&bare).report.valid);
+        let none = Samples {
+            points: Vec::new(),
+            headings: None,
+            rounding_m: 0.0,
+        };
+        assert!(Verdict::new(&obstacles, &vehicle, &request, &none).is_none());
+    }
+
+    #[test]
+    fn a_curve_tighter_than_the_vehicle_is_told() {
+        let (obstacles, vehicle, _) = ground();
+        let radius_m = 0.8 * vehicle.min_turning_radius_m();
+        let center = Point2::new(8.0, 1.2);
+        let at = |i: i32| {
+            let turn = 0.01 * f64::from(i) - 0.1;
+            let point = center + Point2::unit(turn + std::f64::consts::FRAC_PI_2) * radius_m;
+            (point, turn)
+        };
+        let (points, headings): (Vec<_>, Vec<_>) = (0..20).rev().map(at).unzip();
+        let samples = Samples {
+            points,
+            headings: Some(headings),
+            rounding_m: 0.0,
+        };
+        let ends =
+            [0, 19].map(|i| Pose2::at(samples.points[i], samples.headings.as_ref().unwrap()[i]));
+        let request = Request::new(ends[0], ends[1]);
+        let verdict = Verdict::new(&obstacles, &vehicle, &request, &samples).unwrap();
+        let kinds: Vec<_> = verdict.report.violations.iter().map(|v| v.kind).collect();
+        assert!(kinds.contains(&ViolationKind::Curvature), "{kinds:?}");
+    }
+}
