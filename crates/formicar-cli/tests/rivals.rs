@@ -36,15 +36,19 @@ const SCENARIO: &str = r#"{"version": 1, "scenarios": [{"id": "s", "map": "room.
     "max_steer_deg": 30, "length": 0.5, "width": 0.3, "rear_overhang": 0.1,
     "front_overhang": 0.1, "reference": "rear_axle"}}]}"#;
 
-#[test]
-fn paths_of_programs_are_judged_and_tabled_beside_ours() {
+/// A script that finds a path.
+fn found(poses: &str, more: &str) -> String {
+    script(&format!(
+        "echo '{{\"status\": \"found\", \"version\": \"it 1\", \"poses\": {poses}{more}}}'"
+    ))
+}
+
+const NAMES: [&str; 6] = ["straight", "jump", "points", "odd", "dies", "none"];
+
+/// A campaign of a planner of ours, scripts, and this program itself.
+fn room_of_programs() -> Room {
     let room = Room::new();
     room.write("s.json", SCENARIO);
-    let found = |poses: &str, more: &str| {
-        script(&format!(
-            "echo '{{\"status\": \"found\", \"version\": \"it 1\", \"poses\": {poses}{more}}}'"
-        ))
-    };
     room.write(
         "straight.sh",
         found("[[2, 4, 0], [3, 4, 0], [5, 4, 0]]", ", \"query_s\": 0.001"),
@@ -57,8 +61,7 @@ fn paths_of_programs_are_judged_and_tabled_beside_ours() {
         "none.sh",
         script("echo '{\"status\": \"not_found\", \"reason\": \"so be it\"}'"),
     );
-    let names = ["straight", "jump", "points", "odd", "dies", "none"];
-    let programs = names.map(|name| planner(name, &format!("\"sh\", \"{name}.sh\"")));
+    let programs = NAMES.map(|name| planner(name, &format!("\"sh\", \"{name}.sh\"")));
     room.write(
         "c.toml",
         format!(
@@ -67,6 +70,12 @@ fn paths_of_programs_are_judged_and_tabled_beside_ours() {
             planner("cells", "\"formicar\", \"rival\", \"pathfinding\"")
         ),
     );
+    room
+}
+
+#[test]
+fn paths_of_programs_are_judged_and_tabled_beside_ours() {
+    let room = room_of_programs();
     let run = room.run(&["bench", "c.toml", "--store", "s.sqlite"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     let rows = rows(&room.read("s.csv"));
@@ -92,7 +101,7 @@ fn paths_of_programs_are_judged_and_tabled_beside_ours() {
         assert_eq!(rows[planner]["status"], status, "{planner}");
         assert!(rows[planner]["reason"].contains(told), "{planner}");
     }
-    let hashes = names.map(|name| rows[name]["config_hash"].clone());
+    let hashes = NAMES.map(|name| rows[name]["config_hash"].clone());
     assert_ne!(hashes[0], hashes[1]);
     // Another program under the same name is another campaign.
     room.write("jump.sh", found("[[2, 4, 0]]", ""));
@@ -166,8 +175,14 @@ fn programs_that_do_not_start_are_told_before_any_run() {
     }
 }
 
-#[test]
-fn files_of_others_are_judged_and_tabled_beside_ours() {
+/// Imports into `r.csv`.
+fn import(room: &Room, words: &[&str]) -> common::Run {
+    let shared = ["import", "--scenario", "s.json", "--out", "r.csv"];
+    room.run(&[&shared[..], words].concat())
+}
+
+/// Files of others, and the scenario that they are for.
+fn room_of_files() -> Room {
     let room = Room::new();
     room.write("s.json", SCENARIO);
     room.write("good.csv", "x,y,yaw\n2,4,0\n3,4,0\n5,4,0\n");
@@ -187,18 +202,23 @@ fn files_of_others_are_judged_and_tabled_beside_ours() {
          3 properties for each run\nsolved BOOLEAN\ntime REAL\nsolution length REAL\n2 runs\n\
          1; 0.25; 3.5; \n0; 1; 0; \n.\n",
     );
-    let import = |words: &[&str]| {
-        let shared = ["import", "--scenario", "s.json", "--out", "r.csv"];
-        room.run(&[&shared[..], words].concat())
-    };
-    let run = import(&[
-        "good.csv",
-        "short.csv",
-        "--planner",
-        "lattice",
-        "--query",
-        "0.5",
-    ]);
+    room
+}
+
+#[test]
+fn files_of_others_are_judged_and_tabled_beside_ours() {
+    let room = room_of_files();
+    let run = import(
+        &room,
+        &[
+            "good.csv",
+            "short.csv",
+            "--planner",
+            "lattice",
+            "--query",
+            "0.5",
+        ],
+    );
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     assert!(
         run.stdout.contains("s  lattice  seed 0  valid\n"),
@@ -220,15 +240,25 @@ fn files_of_others_are_judged_and_tabled_beside_ours() {
         "--planner",
         "lattice",
     ];
-    let run = import(&[&["short.csv"], &loose[..]].concat());
+    let run = import(&room, &[&["short.csv"], &loose[..]].concat());
     assert!(run.stdout.contains("1 runs of 2 are new"), "{}", run.stdout);
-    assert_eq!(import(&["nav.json", "--planner", "nav"]).code, 0);
+    import_the_others(&room);
+    table_beside_ours(&room);
+}
+
+/// A path of ROS, and a log with and without trust.
+fn import_the_others(room: &Room) {
+    assert_eq!(import(room, &["nav.json", "--planner", "nav"]).code, 0);
     assert!(
-        import(&["door.log"])
+        import(room, &["door.log"])
             .stdout
             .contains("geometric_RRT  seed 0  found: its log holds no")
     );
-    assert_eq!(import(&["door.log", "--trust"]).code, 0);
+    assert_eq!(import(room, &["door.log", "--trust"]).code, 0);
+}
+
+/// A report and a comparison of the imported rows with ours.
+fn table_beside_ours(room: &Room) {
     room.write(
         "c.toml",
         "[[scenarios]]\nfile = \"s.json\"\n[[planner]]\nplanner = \"hybrid-astar\"\n",
@@ -261,6 +291,11 @@ fn files_of_others_are_judged_and_tabled_beside_ours() {
     assert_eq!(room.run(&only).code, 0);
     let compared = room.run(&["compare", "o.sqlite", "n.csv"]);
     assert_eq!((compared.code, compared.stderr.as_str()), (0, ""));
+}
+
+#[test]
+fn files_that_are_none_are_refused_with_the_place() {
+    let room = room_of_files();
     for (name, text, words) in [
         ("a.csv", "1,2,3\n1,two,3\n", ["a.csv", "line 2", "\"two\""]),
         (
@@ -275,7 +310,7 @@ fn files_of_others_are_judged_and_tabled_beside_ours() {
         ),
     ] {
         room.write(name, text);
-        import(&[name, "--planner", "it"]).assert_refused(&words);
+        import(&room, &[name, "--planner", "it"]).assert_refused(&words);
     }
-    import(&["good.csv"]).assert_refused(&["good.csv", "--planner NAME"]);
+    import(&room, &["good.csv"]).assert_refused(&["good.csv", "--planner NAME"]);
 }
