@@ -96,11 +96,13 @@ fn random_search(space: &ParameterSpace, n: u64, seed: u64, cost: fn(&[f64]) -> 
     costs.fold(f64::MAX, f64::min)
 }
 
+/// A function to be searched: its name, reach of the cube, dimensions, evaluations, and the most
+/// that the median of 11 runs of each variant may be off.
+type Case = (&'static str, fn(&[f64]) -> f64, f64, usize, u64, [f64; 2]);
+
 #[test]
 fn known_least_values_are_found() {
-    // Per function: reach of the cube, dimensions, evaluations, and the most that the median of 11
-    // runs of each variant may be off.
-    let cases: [(&str, fn(&[f64]) -> f64, f64, usize, u64, [f64; 2]); 4] = [
+    let cases: [Case; 4] = [
         ("sphere", sphere, 100.0, 10, 20_000, [1e-15, 1e-20]),
         ("rosenbrock", rosenbrock, 10.0, 5, 20_000, [0.3, 0.05]),
         ("rastrigin", rastrigin, 5.12, 5, 10_000, [1e-10, 1e-10]),
@@ -221,9 +223,8 @@ fn costs_that_are_no_numbers_are_the_worst() {
 }
 
 #[test]
-fn what_cannot_be_is_refused() {
+fn spaces_that_cannot_be_are_refused() {
     let one = |kind: Kind| ParameterSpace::new(vec![Dimension::new("k", kind)]);
-    let message = |error: TuningError| error.to_string();
     let (low, high) = (2.0, 1.0);
     let cases = [
         (
@@ -262,17 +263,21 @@ fn what_cannot_be_is_refused() {
         ),
     ];
     for (kind, expected) in cases {
-        let error = message(one(kind).unwrap_err());
+        let error = one(kind).unwrap_err().to_string();
         assert!(error.starts_with(expected), "{error}");
     }
     let real = || Dimension::new("k", Kind::Real { low: 0.0, high });
     let error = ParameterSpace::new(vec![real(), real()]).unwrap_err();
     assert_eq!(
-        message(error),
+        error.to_string(),
         "two dimensions are named \"k\"; hint: each parameter once"
     );
     assert!(ParameterSpace::new(Vec::new()).is_err());
+}
 
+#[test]
+fn searches_that_cannot_be_are_refused() {
+    let message = |error: TuningError| error.to_string();
     let colony = |config| BeeColony::new(cube(2, 1.0), config, Seed(0));
     let few = BeeColonyConfig {
         n_sources: 3,
