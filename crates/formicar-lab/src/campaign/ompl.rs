@@ -1,7 +1,7 @@
 //! Runs of stores as logs of OMPL, which Planner Arena opens.
 
 use super::record::Record;
-use super::report::place;
+use super::report::{place, places};
 use crate::compare::planners;
 use crate::report::{OmplLog, OmplPlanner, OmplRun, Property, PropertyKind};
 
@@ -27,13 +27,8 @@ const BYTES_PER_MB: f64 = 1e6;
 
 /// A log per scenario, vehicle and motion mode, in the order in which they ran.
 pub fn ompl_logs(records: &[Record]) -> Vec<OmplLog> {
-    let mut places: Vec<[&str; 3]> = Vec::new();
-    for record in records {
-        if !places.contains(&place(record)) {
-            places.push(place(record));
-        }
-    }
-    places.into_iter().map(|at| log(records, at)).collect()
+    let places = places(records).into_iter();
+    places.map(|at| log(records, at)).collect()
 }
 
 fn log(records: &[Record], at: [&str; 3]) -> OmplLog {
@@ -86,5 +81,42 @@ fn run(record: &Record) -> OmplRun {
             .iter()
             .map(|i| [i.at_s, i.length_m])
             .collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::campaign::Improvement;
+    use serde_json::json;
+
+    #[test]
+    fn a_log_holds_the_runs_of_a_scenario() {
+        let record = |planner: &str, length_m: f64| {
+            let mut record = Record::default();
+            record.row.fill(&json!({
+                "scenario": "s", "planner": planner, "seed": 0, "status": "found", "valid": true,
+                "length_m": length_m, "query_s": 0.5, "peak_rss_bytes": 3e7,
+            }));
+            record.history.improvements = vec![Improvement {
+                at_s: 0.25,
+                steps: 7,
+                length_m,
+            }];
+            record
+        };
+        let logs = ompl_logs(&[record("a", 3.0), record("b", 4.0)]);
+        assert_eq!(logs.len(), 1);
+        let text = logs[0].to_text();
+        assert!(
+            text.contains("Experiment s\n") && text.contains("2 planners\n"),
+            "{text}"
+        );
+        assert_eq!(logs[0].planners[1].runs[0].progress, [[0.25, 4.0]]);
+        let values = &logs[0].planners[0].runs[0].values;
+        assert_eq!(
+            values[..5],
+            [Some(1.0), Some(0.5), None, Some(30.0), Some(3.0)]
+        );
     }
 }

@@ -27,9 +27,6 @@ pub fn report(name: &str, records: &[Record]) -> Result<Report> {
 }
 
 fn intro(records: &[Record]) -> String {
-    let mut scenarios: Vec<[&str; 3]> = records.iter().map(place).collect();
-    scenarios.sort_unstable();
-    scenarios.dedup();
     let n_planners = planners(records).len();
     let method = if n_planners > 1 {
         format!(" Planners beside the first: {METHOD}")
@@ -41,7 +38,7 @@ fn intro(records: &[Record]) -> String {
          certificate was returned. Metrics are those of solved runs, as median and quartiles.\
          {method}",
         records.len(),
-        scenarios.len()
+        places(records).len()
     )
 }
 
@@ -82,12 +79,7 @@ fn of_scenarios(records: &[Record]) -> Section {
     heading.extend(metrics().map(|metric| metric.name));
     let mut table =
         Table::new("scenarios", &heading).captioned("Over the seeds: median [quartiles].");
-    let mut places: Vec<[&str; 3]> = Vec::new();
-    for record in records {
-        if !places.contains(&place(record)) {
-            places.push(place(record));
-        }
-    }
+    let places = places(records);
     let is_plain = |i: usize| places.iter().all(|p| p[i] == places[0][i]);
     let plain = [false, is_plain(1), is_plain(2)];
     for of_place in &places {
@@ -108,6 +100,17 @@ fn of_scenarios(records: &[Record]) -> Section {
 /// Scenario, vehicle, motion mode: the last two are named where they are not all the same.
 pub(super) fn place(record: &Record) -> [&str; 3] {
     ["scenario", "vehicle", "motion"].map(|column| record.get(column))
+}
+
+/// All places in the order in which they come.
+pub(super) fn places(records: &[Record]) -> Vec<[&str; 3]> {
+    let mut places = Vec::new();
+    for record in records {
+        if !places.contains(&place(record)) {
+            places.push(place(record));
+        }
+    }
+    places
 }
 
 /// All metrics but success.
@@ -159,6 +162,14 @@ mod tests {
         );
         assert!(text.contains("| one | 3/3 [44, 100] % | - | - | 11.000 [10.500, 11.500] |"));
         assert!(text.contains("## `two` beside `one`"), "{text}");
+        let figures = [
+            "Solved runs, length over the least",
+            "Pairs of one scenario and seed",
+        ];
+        assert!(
+            figures.iter().all(|caption| text.contains(caption)),
+            "{text}"
+        );
         assert!(text.contains("Solved by one alone: s seed 0."), "{text}");
         assert!(
             text.contains("| s two | 2/3 | - | - | 21.500 [21.250, 21.750] |"),
