@@ -143,6 +143,25 @@ pub(crate) struct DemoArgs {
     pub(crate) only: Vec<String>,
 }
 
+/// How a request may be driven; whatever is not given is that of the library.
+#[derive(Args, Clone, Copy, Debug, Default)]
+pub(crate) struct Modes {
+    /// Which gears may be used; `reverse` allows both and penalizes reverse.
+    #[arg(long, value_name = "MODE",
+          value_parser = values::word::<MotionMode>(&["forward", "reverse"]))]
+    pub(crate) motion: Option<MotionMode>,
+
+    /// Whether the start heading is fixed.
+    #[arg(long, value_name = "MODE",
+          value_parser = values::word::<StartHeading>(&["exact", "any"]))]
+    pub(crate) start_heading: Option<StartHeading>,
+
+    /// Whether the goal heading is fixed; `bidirectional` allows the opposite one too.
+    #[arg(long, value_name = "MODE",
+          value_parser = values::word::<GoalHeading>(&["exact", "bidirectional", "any"]))]
+    pub(crate) goal_heading: Option<GoalHeading>,
+}
+
 /// Flags of `plan`.
 #[derive(Args, Debug)]
 pub(crate) struct PlanArgs {
@@ -166,10 +185,8 @@ pub(crate) struct PlanArgs {
           value_parser = values::goal_tolerance, allow_hyphen_values = true)]
     pub(crate) via_tolerance: Option<GoalTolerance>,
 
-    /// Which gears may be used; `reverse` allows both and penalizes reverse.
-    #[arg(long, value_name = "MODE",
-          value_parser = values::word::<MotionMode>(&["forward", "reverse"]))]
-    pub(crate) motion: Option<MotionMode>,
+    #[command(flatten)]
+    pub(crate) modes: Modes,
 
     /// Let the curvature change at most so fast along the way, 1/m^2, instead of jumping from arc to
     /// arc; without a number as fast as the vehicle's steering rate allows at its speed.
@@ -180,16 +197,6 @@ pub(crate) struct PlanArgs {
         reason = "the flag, and its number: clap's way to say it"
     )]
     pub(crate) continuous_curvature: Option<Option<f64>>,
-
-    /// Whether the start heading is fixed.
-    #[arg(long, value_name = "MODE",
-          value_parser = values::word::<StartHeading>(&["exact", "any"]))]
-    pub(crate) start_heading: Option<StartHeading>,
-
-    /// Whether the goal heading is fixed; `bidirectional` allows the opposite one too.
-    #[arg(long, value_name = "MODE",
-          value_parser = values::word::<GoalHeading>(&["exact", "bidirectional", "any"]))]
-    pub(crate) goal_heading: Option<GoalHeading>,
 
     /// How far from the goal the path may end; 0.01,0.01 by default.
     #[arg(long, value_name = "M,RAD", value_parser = values::goal_tolerance, allow_hyphen_values = true)]

@@ -3,62 +3,9 @@
 
 mod common;
 
-use common::{Room, Run};
+use common::{Room, Run, Table};
 use std::collections::BTreeSet;
 use std::fs;
-
-/// The rows of a table, by column.
-struct Table {
-    columns: Vec<String>,
-    rows: Vec<Vec<String>>,
-}
-
-impl Table {
-    fn of(text: &str) -> Self {
-        let mut reader = csv::ReaderBuilder::new()
-            .has_headers(false)
-            .from_reader(text.as_bytes());
-        let mut rows: Vec<Vec<String>> = reader
-            .records()
-            .map(|record| record.unwrap().iter().map(str::to_owned).collect())
-            .collect();
-        Self {
-            columns: rows.remove(0),
-            rows,
-        }
-    }
-
-    fn get(&self, row: usize, column: &str) -> &str {
-        let column = self.columns.iter().position(|c| c == column);
-        &self.rows[row][column.expect("a column of this name")]
-    }
-
-    /// All values of a column.
-    fn column(&self, column: &str) -> Vec<&str> {
-        (0..self.rows.len()).map(|i| self.get(i, column)).collect()
-    }
-
-    /// The rows without times and memory.
-    fn repeatable(&self) -> Vec<Vec<&str>> {
-        const VARYING: [&str; 8] = [
-            "cold_first_s",
-            "judge_s",
-            "map_setup_s",
-            "first_feasible_s",
-            "query_s",
-            "total_s",
-            "cpu_s",
-            "peak_rss_bytes",
-        ];
-        let kept = |row: &usize| {
-            let columns = self.columns.iter().map(String::as_str);
-            // A slow machine may know no path yet at 0.1 s.
-            let columns = columns.filter(|c| !VARYING.contains(c) && !c.contains("1s"));
-            columns.map(|c| self.get(*row, c)).collect()
-        };
-        (0..self.rows.len()).map(|row| kept(&row)).collect()
-    }
-}
 
 #[test]
 #[cfg(target_os = "linux")]

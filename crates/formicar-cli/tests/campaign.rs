@@ -3,43 +3,13 @@
 
 mod common;
 
-use common::{Room, Run};
+use common::{Room, Run, Table};
 use std::fs;
 use std::process::{Command, Stdio};
 
-/// Columns that differ from run to run.
-const VARYING: [&str; 9] = [
-    "cold_first_s",
-    "judge_s",
-    "map_setup_s",
-    "first_feasible_s",
-    "query_s",
-    "total_s",
-    "cpu_s",
-    "peak_rss_bytes",
-    "machine",
-];
-
-/// A table without times and memory, in its own order.
-fn repeatable(text: &str) -> Vec<Vec<String>> {
-    let mut reader = csv::Reader::from_reader(text.as_bytes());
-    let header = reader.headers().unwrap().clone();
-    // A slow machine may know no path yet at 0.1 s.
-    let is_kept = |column: &str| !VARYING.contains(&column) && !column.contains("1s");
-    let rows = reader.records().map(|record| {
-        let record = record.unwrap();
-        let kept = header.iter().zip(&record).filter(|(c, _)| is_kept(c));
-        kept.map(|(_, value)| value.to_owned()).collect()
-    });
-    rows.collect()
-}
-
 fn column(text: &str, name: &str) -> Vec<String> {
-    let mut reader = csv::Reader::from_reader(text.as_bytes());
-    let place = reader.headers().unwrap().iter().position(|c| c == name);
-    let place = place.expect("a column of this name");
-    let rows = reader.records();
-    rows.map(|r| r.unwrap()[place].to_owned()).collect()
+    let table = Table::of(text);
+    table.column(name).into_iter().map(str::to_owned).collect()
 }
 
 /// 2 scenarios x 2 vehicles x 2 motion modes x 2 planners x 3 seeds.
@@ -109,7 +79,10 @@ fn a_killed_campaign_goes_on_and_ends_like_an_undisturbed_one() {
     let told = format!("{} runs, {n_kept} kept from before", 48 - n_kept);
     assert!(run.stdout.contains(&told), "{}", run.stdout);
     let (whole, torn) = (room.read("whole.csv"), room.read("torn.csv"));
-    assert_eq!(repeatable(&torn), repeatable(&whole));
+    assert_eq!(
+        Table::of(&torn).repeatable(),
+        Table::of(&whole).repeatable()
+    );
     let mut keys = column(&torn, "run");
     keys.sort();
     keys.dedup();
@@ -339,8 +312,8 @@ fn a_build_beside_itself_is_not_worse() {
         }
     }
     assert_eq!(
-        repeatable(&room.read("o/a.csv")),
-        repeatable(&room.read("o/b.csv"))
+        Table::of(&room.read("o/a.csv")).repeatable(),
+        Table::of(&room.read("o/b.csv")).repeatable()
     );
     room.run(&["compare", "c.toml", "--with", "/bin/true"])
         .assert_refused(&["/bin/true", "no formicar"]);

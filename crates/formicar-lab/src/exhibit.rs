@@ -3,13 +3,8 @@
 use crate::experiment::{Ground, Variant};
 use crate::report::{Figure, Overlay, OverlayPath, strips};
 use anyhow::Result;
-use formicar::geometry::Point2;
-use formicar::map::Cell;
 use formicar::numeric::Seed;
 use formicar::planner::{Outcome, Planner};
-
-/// Spacing of drawn places along a curve, metres.
-const SPACING_M: f64 = 0.1;
 
 /// A run with the seed 0.
 pub(crate) struct Exhibit {
@@ -36,19 +31,21 @@ impl Exhibit {
         })
     }
 
-    fn points(&self, ground: &Ground, line: Line) -> Vec<Point2> {
+    /// The line as a path to be drawn; none where the run has none.
+    fn path(&self, ground: &Ground, line: Line) -> Option<OverlayPath> {
         let curve = match line {
             Line::Cells => None,
             Line::Curve => self.outcome.judged(),
         };
         if let Some((curve, _)) = curve {
-            let samples = curve.sample(SPACING_M).into_iter();
-            return samples.map(|sample| sample.pose.position()).collect();
+            return Some(OverlayPath::along(&self.variant, curve));
         }
         let frame = ground.grid.frame();
-        let center = |cells: &[Cell]| cells.iter().map(|&cell| frame.center(cell)).collect();
-        let path = self.outcome.stages().grid_path.as_ref();
-        path.map_or(Vec::new(), |path| center(&path.cells))
+        let cells = &self.outcome.stages().grid_path.as_ref()?.cells;
+        Some(OverlayPath {
+            name: self.variant.clone(),
+            points: cells.iter().map(|&cell| frame.center(cell)).collect(),
+        })
     }
 }
 
@@ -58,18 +55,15 @@ pub(crate) fn overlay(
     (exhibits, line): (&[Exhibit], Line),
     caption: &str,
 ) -> Figure {
-    let path = |exhibit: &Exhibit| OverlayPath {
-        name: exhibit.variant.clone(),
-        points: exhibit.points(ground, line),
-    };
-    let paths = exhibits.iter().map(path);
+    let paths = exhibits.iter();
+    let paths = paths.filter_map(|exhibit| exhibit.path(ground, line));
     Overlay {
         caption: caption.to_owned(),
         map: &ground.grid,
         window: None,
         vehicle: &ground.vehicle,
         ends: [ground.request.start, ground.request.goal],
-        paths: paths.filter(|path| !path.points.is_empty()).collect(),
+        paths: paths.collect(),
     }
     .figure()
 }

@@ -1,9 +1,9 @@
-//! Experiments: what papers claim, repeated on maps of our own and measured.
+//! Evidence about planners: experiments, campaigns, statistics, reports.
 //!
 //! An experiment is a list of [`Variant`]s, configurations with a name, that run on the same
-//! [`Ground`]s with the same seeds. Every run gives a row of `results.csv`; a [`Reproduction`]
-//! holds all rows and a [`report::Report`] of tables and figures, which is written as a page, as
-//! Markdown and as LaTeX.
+//! [`Ground`]s with the same seeds; a [`Reproduction`] holds all rows and a [`report::Report`]. A
+//! [`campaign::Campaign`] is what a user asks for in a file; its runs are kept in a store, which
+//! becomes a report too, or one side of a comparison ([`mod@compare`]).
 
 pub mod campaign;
 pub mod claims;

@@ -136,12 +136,12 @@ fn request(args: &PlanArgs, ground: &Ground) -> RequestDocument {
         goals,
         via: (!via.is_empty()).then_some(via),
         goal_tolerance: args.goal_tolerance,
-        motion: args.motion,
+        motion: args.modes.motion,
         curvature: args
             .continuous_curvature
             .map(|max_rate_per_m2| CurvatureMode::Continuous(CurvatureRate { max_rate_per_m2 })),
-        start_heading: args.start_heading,
-        goal_heading: args.goal_heading,
+        start_heading: args.modes.start_heading,
+        goal_heading: args.modes.goal_heading,
         deadline_ms: args.deadline,
         budget_steps: args.budget,
         seed: Some(args.seed),

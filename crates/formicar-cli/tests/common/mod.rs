@@ -138,3 +138,54 @@ impl Room {
         names
     }
 }
+
+/// The rows of a table, by column.
+pub struct Table {
+    columns: Vec<String>,
+    pub rows: Vec<Vec<String>>,
+}
+
+/// Columns that differ from run to run.
+const VARYING: [&str; 9] = [
+    "cold_first_s",
+    "judge_s",
+    "map_setup_s",
+    "first_feasible_s",
+    "query_s",
+    "total_s",
+    "cpu_s",
+    "peak_rss_bytes",
+    "machine",
+];
+
+impl Table {
+    pub fn of(text: &str) -> Self {
+        let mut reader = csv::Reader::from_reader(text.as_bytes());
+        let owned = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
+        Self {
+            columns: owned(reader.headers().unwrap()),
+            rows: reader.records().map(|row| owned(&row.unwrap())).collect(),
+        }
+    }
+
+    pub fn get(&self, row: usize, column: &str) -> &str {
+        let column = self.columns.iter().position(|c| c == column);
+        &self.rows[row][column.expect("a column of this name")]
+    }
+
+    /// All values of a column.
+    pub fn column(&self, column: &str) -> Vec<&str> {
+        (0..self.rows.len()).map(|i| self.get(i, column)).collect()
+    }
+
+    /// The rows without times and memory.
+    pub fn repeatable(&self) -> Vec<Vec<&str>> {
+        let kept = |row: usize| {
+            let columns = self.columns.iter().map(String::as_str);
+            // A slow machine may know no path yet at 0.1 s.
+            let columns = columns.filter(|c| !VARYING.contains(c) && !c.contains("1s"));
+            columns.map(|c| self.get(row, c)).collect()
+        };
+        (0..self.rows.len()).map(kept).collect()
+    }
+}

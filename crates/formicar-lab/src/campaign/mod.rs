@@ -8,6 +8,7 @@
 mod charts;
 mod document;
 mod job;
+mod lock;
 mod mistake;
 mod ompl;
 mod plan;
@@ -17,6 +18,7 @@ mod row;
 mod scenarios;
 mod seeds;
 mod store;
+mod stored;
 mod table;
 
 pub use document::{Document, PlannerEntry};
@@ -30,5 +32,6 @@ pub use record::{History, Improvement, ORIGIN_COLUMNS, Origin, Record, Told};
 pub use report::report;
 pub use row::{COLUMNS, KNOWN_BY, Row};
 pub use scenarios::ScenariosEntry;
-pub use store::{Store, Stored};
+pub use store::Store;
+pub use stored::Stored;
 pub use table::{read_csv, to_csv};

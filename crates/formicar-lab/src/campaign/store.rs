@@ -4,20 +4,15 @@
 //! longer than a commit, so nothing is gained by a log, and what is left behind is one file. After
 //! a kill the next opening rolls back the run that was being written and nothing else.
 
-use super::job::Job;
-use super::plan::{Campaign, ConfigRecord};
-use super::record::{ORIGIN_COLUMNS, Origin, Record};
-use super::row::{COLUMNS, Row};
-use super::table::to_csv;
-use anyhow::{Context, Result, anyhow, bail};
-use rusqlite::types::{Value, ValueRef};
-use rusqlite::{Connection, OpenFlags, OptionalExtension, params_from_iter};
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs::{File, TryLockError};
+use super::lock::Lock;
+use super::plan::Campaign;
+use super::record::Record;
+use super::stored::{SCHEMA, Stored, check_schema, columns, fact};
+use anyhow::{Context, Result, bail};
+use rusqlite::types::Value;
+use rusqlite::{Connection, params_from_iter};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-
-/// Name and version of the tables.
-const SCHEMA: &str = "formicar/store/1";
 
 /// The store of a campaign under way, of which this process is the only writer.
 #[derive(Debug)]
@@ -25,37 +20,6 @@ pub struct Store {
     connection: Connection,
     path: PathBuf,
     _lock: Lock,
-}
-
-/// That this process is the only writer; it ends with the process, however that ends.
-#[derive(Debug)]
-struct Lock {
-    path: PathBuf,
-    _file: File,
-}
-
-impl Drop for Lock {
-    fn drop(&mut self) {
-        // What is left of a lock file holds nobody up.
-        let _ = std::fs::remove_file(&self.path);
-    }
-}
-
-/// A store as it stands.
-#[derive(Clone, Debug, Default)]
-pub struct Stored {
-    /// The campaign's name.
-    pub name: String,
-    /// The campaign file.
-    pub text: String,
-    /// How many runs the campaign has.
-    pub n_planned: usize,
-    /// The runs that are over, in the order of the campaign.
-    pub records: Vec<Record>,
-    /// The configurations of its planners.
-    pub configs: Vec<ConfigRecord>,
-    /// What the processes of its runs are told, by key; none of a table.
-    pub jobs: BTreeMap<String, Job>,
 }
 
 impl Store {
@@ -126,7 +90,7 @@ impl Store {
     /// # Errors
     /// A store that cannot be read.
     pub fn stored(&self) -> Result<Stored> {
-        stored(&self.connection).with_context(|| self.path.display().to_string())
+        Stored::of(&self.connection).with_context(|| self.path.display().to_string())
     }
 
     /// Closes the store of a campaign that is done.
@@ -194,59 +158,6 @@ impl Store {
     }
 }
 
-impl Stored {
-    /// What stands in the store at a path.
-    ///
-    /// # Errors
-    /// A file that is no store.
-    pub fn read(path: &Path) -> Result<Self> {
-        let read = || -> Result<Self> {
-            // A journal left by a kill is rolled back, which is writing.
-            let connection = Connection::open_with_flags(path, OpenFlags::SQLITE_OPEN_READ_WRITE)
-                .or_else(|_| {
-                Connection::open_with_flags(path, OpenFlags::SQLITE_OPEN_READ_ONLY)
-            })?;
-            check_schema(&connection)?;
-            stored(&connection)
-        };
-        read().with_context(|| path.display().to_string())
-    }
-
-    /// All runs as CSV, in the order of the campaign.
-    ///
-    /// # Errors
-    /// None in practice: the table is written to memory.
-    pub fn csv(&self) -> Result<String> {
-        to_csv(&self.records)
-    }
-}
-
-impl Lock {
-    /// The lock of a store; refused where another process has it.
-    fn of(path: &Path) -> Result<Self> {
-        let mut name = path.as_os_str().to_owned();
-        name.push(".lock");
-        let name = PathBuf::from(name);
-        let told = || format!("{} cannot be written", name.display());
-        let file = File::create(&name).with_context(told)?;
-        match file.try_lock() {
-            Ok(()) => Ok(Self {
-                path: name,
-                _file: file,
-            }),
-            Err(TryLockError::WouldBlock) => bail!(
-                "{}: another process writes to it; hint: wait for it, or take another --store",
-                path.display()
-            ),
-            Err(TryLockError::Error(error)) => Err(error).context(name.display().to_string()),
-        }
-    }
-}
-
-fn columns() -> impl Iterator<Item = &'static str> {
-    COLUMNS.into_iter().chain(ORIGIN_COLUMNS)
-}
-
 fn tables() -> String {
     // Without a type a column keeps numbers as they are: 2.0 stays a real one.
     let columns: Vec<String> = columns().map(|c| format!("\"{c}\"")).collect();
@@ -261,7 +172,7 @@ fn tables() -> String {
 }
 
 /// Columns that hold words, even where these look like numbers.
-const WORDS: [&str; 14] = [
+const WORDS: [&str; 16] = [
     "scenario",
     "planner",
     "status",
@@ -275,129 +186,29 @@ const WORDS: [&str; 14] = [
     "machine",
     "config_hash",
     "map_hash",
+    "vehicle_hash",
+    "cold",
     "run",
 ];
 
 fn value(column: &str, text: &str) -> Value {
-    let is_word = WORDS.contains(&column) || column == "vehicle_hash" || column == "cold";
     let number = || {
         let whole = text.parse::<i64>().ok().map(Value::Integer);
         whole.or_else(|| text.parse::<f64>().ok().map(Value::Real))
     };
     match text {
         "" => Value::Null,
-        _ if is_word => Value::Text(text.to_owned()),
+        _ if WORDS.contains(&column) => Value::Text(text.to_owned()),
         _ => number().unwrap_or_else(|| Value::Text(text.to_owned())),
     }
-}
-
-/// A value as it stood in the row.
-fn text_of(value: ValueRef) -> Result<serde_json::Value> {
-    Ok(match value {
-        ValueRef::Null => serde_json::Value::Null,
-        ValueRef::Integer(n) => n.into(),
-        ValueRef::Real(x) => x.into(),
-        ValueRef::Text(text) => std::str::from_utf8(text)?.into(),
-        ValueRef::Blob(_) => bail!("a value that is none of ours"),
-    })
-}
-
-fn check_schema(connection: &Connection) -> Result<()> {
-    let schema = fact(connection, "schema")
-        .map_err(|error| anyhow!("it is no store of campaigns ({error}); hint: another --store"))?;
-    if schema != SCHEMA {
-        bail!("its tables are {schema:?}, this version reads {SCHEMA:?}; hint: another --store");
-    }
-    Ok(())
-}
-
-fn fact(connection: &Connection, name: &str) -> Result<String> {
-    let sql = "SELECT value FROM fact WHERE name = ?";
-    let value = connection.query_row(sql, [name], |row| row.get(0));
-    value
-        .optional()?
-        .with_context(|| format!("it does not tell its {name}"))
-}
-
-fn stored(connection: &Connection) -> Result<Stored> {
-    let n_planned: i64 = connection.query_row("SELECT count(*) FROM planned", [], |r| r.get(0))?;
-    Ok(Stored {
-        name: fact(connection, "campaign")?,
-        text: fact(connection, "text")?,
-        n_planned: n_planned as usize,
-        records: records(connection)?,
-        configs: configs(connection)?,
-        jobs: jobs(connection)?,
-    })
-}
-
-fn jobs(connection: &Connection) -> Result<BTreeMap<String, Job>> {
-    let mut statement = connection.prepare("SELECT run, job FROM planned")?;
-    let mut rows = statement.query([])?;
-    let mut jobs = BTreeMap::new();
-    while let Some(row) = rows.next()? {
-        let text: String = row.get(1)?;
-        jobs.insert(row.get(0)?, serde_json::from_str(&text)?);
-    }
-    Ok(jobs)
-}
-
-fn configs(connection: &Connection) -> Result<Vec<ConfigRecord>> {
-    let sql = "SELECT name, hash, parameters FROM config ORDER BY rowid";
-    let mut statement = connection.prepare(sql)?;
-    let configs = statement.query_map([], |row| {
-        Ok(ConfigRecord {
-            name: row.get(0)?,
-            hash: row.get(1)?,
-            json: row.get(2)?,
-        })
-    })?;
-    Ok(configs.collect::<rusqlite::Result<_>>()?)
-}
-
-fn records(connection: &Connection) -> Result<Vec<Record>> {
-    let names: Vec<String> = columns().map(|c| format!("\"{c}\"")).collect();
-    let sql = format!(
-        "SELECT {}, history, path FROM run ORDER BY place",
-        names.join(", ")
-    );
-    let mut statement = connection.prepare(&sql)?;
-    let mut rows = statement.query([])?;
-    let mut records = Vec::new();
-    while let Some(row) = rows.next()? {
-        records.push(record(row)?);
-    }
-    Ok(records)
-}
-
-fn record(stored: &rusqlite::Row) -> Result<Record> {
-    let (mut row, mut origin) = (Row::default(), Origin::default());
-    for (i, column) in COLUMNS.into_iter().enumerate() {
-        row.set(column, &text_of(stored.get_ref(i)?)?);
-    }
-    for (i, column) in ORIGIN_COLUMNS.into_iter().enumerate() {
-        let text = match text_of(stored.get_ref(COLUMNS.len() + i)?)? {
-            serde_json::Value::Null => String::new(),
-            serde_json::Value::String(text) => text,
-            number => number.to_string(),
-        };
-        origin.set(column, &text);
-    }
-    let n = COLUMNS.len() + ORIGIN_COLUMNS.len();
-    let path: Option<String> = stored.get(n + 1)?;
-    Ok(Record {
-        row,
-        origin,
-        history: serde_json::from_str(&stored.get::<_, String>(n)?)?,
-        path: path.map(|json| serde_json::from_str(&json)).transpose()?,
-    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::plan::tests::campaign;
     use super::*;
-    use crate::campaign::record::{History, Improvement};
+    use crate::campaign::record::{History, Improvement, Origin};
+    use crate::campaign::row::Row;
     use serde_json::json;
 
     fn done(campaign: &Campaign, place: usize) -> Record {

@@ -14,6 +14,9 @@ use formicar::vehicle::Vehicle;
 const SPACING_M: f64 = 0.05;
 const MIN_PLACES: f64 = 200.0;
 
+/// Spacing of drawn places along a curve, metres.
+const OVERLAY_SPACING_M: f64 = 0.1;
+
 /// Lines that differ in color, dash and width, the last path's first.
 const LOOKS: [(Color, Dash, f64); 6] = [
     (palette::FORWARD, Dash::Solid, 2.6),
@@ -31,6 +34,17 @@ pub struct OverlayPath {
     pub name: String,
     /// Its places, world coordinates.
     pub points: Vec<Point2>,
+}
+
+impl OverlayPath {
+    /// The places along a curve.
+    pub fn along(name: &str, path: &CurvePath) -> Self {
+        let samples = path.sample(OVERLAY_SPACING_M).into_iter();
+        Self {
+            name: name.to_owned(),
+            points: samples.map(|sample| sample.pose.position()).collect(),
+        }
+    }
 }
 
 /// Several paths on one map.

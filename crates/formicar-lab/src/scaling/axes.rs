@@ -138,7 +138,7 @@ impl Quantity {
     /// Colonies for ants and threads, which others have none of.
     fn planners(self) -> &'static [PlannerName] {
         match self {
-            Self::Ants | Self::Threads => &[PlannerName::MaxMin, PlannerName::Faco2024],
+            Self::Ants | Self::Threads => &[PlannerName::Aco, PlannerName::Faco2024],
             _ => &[
                 PlannerName::Formicar,
                 PlannerName::HybridAstar,
@@ -152,7 +152,9 @@ impl Quantity {
 fn variant(planner: PlannerName, n_ants: Option<u32>) -> Variant {
     let mut variant = Variant::of(planner);
     if let Some(n_ants) = n_ants {
+        // A colony over cells heeds the one, a colony over chords the other.
         variant.config.colony.n_ants = n_ants;
+        variant.config.chords.n_ants = n_ants;
     }
     variant
 }
@@ -222,6 +224,7 @@ mod tests {
         }
         let ants = Quantity::Ants.points(Scale::QUICK).unwrap();
         assert_eq!(ants[1].variants[0].config.colony.n_ants, 20);
+        assert_eq!(ants[1].variants[1].config.chords.n_ants, 20);
         let vehicles = Quantity::VehicleSize.points(Scale::QUICK).unwrap();
         assert!((vehicles[2].x - 3.0).abs() < 1e-9, "{}", vehicles[2].x);
     }

@@ -6,14 +6,15 @@ mod fit;
 mod sample;
 
 use crate::experiment::{Ground, Setup, Variant};
-use crate::report::{Block, Field, Figure, Report, Section, Table};
+use crate::report::{
+    BandPanel, Bands, Block, Course, Fact, Field, Report, ScaleKind, Section, Table,
+};
 use crate::reproduction::{Reproduction, configs_of, csv, facts_of, seeds};
 use crate::statistics::quartiles;
 use anyhow::Result;
 use axes::Quantity;
 use fit::PowerLaw;
 use formicar::geometry::Point2;
-use formicar::render::{Axis, Chart, Dash, Picture, SERIES_COLORS, Series};
 use sample::Sample;
 
 /// Seeds of each query: times differ little between seeds.
@@ -53,7 +54,7 @@ pub fn scaling(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproduction
     grounds.sort_by(|a, b| a.map.cmp(&b.map));
     grounds.dedup_by(|a, b| a.map == b.map);
     let mut facts = facts_of(&grounds);
-    facts.push(crate::report::Fact::new("Seeds", seeds(n_seeds)));
+    facts.push(Fact::new("Seeds", seeds(n_seeds)));
     let pairs = used
         .iter()
         .flat_map(|(ground, variants)| variants.iter().map(move |v| (ground, v)));
@@ -91,7 +92,7 @@ fn section(quantity: Quantity, samples: &[Sample]) -> Section {
     }
     let mut blocks = vec![Block::Table(table(quantity, &of_it, &planners))];
     for cost in &COSTS {
-        blocks.push(Block::Figure(figure(quantity, cost, &of_it, &planners)));
+        blocks.push(Block::Bands(plot(quantity, cost, &of_it, &planners)));
     }
     Section {
         heading: format!("Over {}", quantity.about()),
@@ -126,11 +127,11 @@ fn table(quantity: Quantity, samples: &[&Sample], planners: &[&str]) -> Table {
             Field::Count(n_solved, of_planner.count()),
         ];
         for (_, _, cost) in &COSTS {
-            let law = PowerLaw::through(&medians(samples, planner, *cost));
+            let law = PowerLaw::through(&medians(&spreads(samples, planner, *cost)));
             row.push(Field::Number(law.map(|law| law.exponent), 2));
             row.push(Field::Number(law.map(|law| law.r_squared), 3));
         }
-        let last = medians(samples, planner, |sample| sample.query_ms).pop();
+        let last = medians(&spreads(samples, planner, |sample| sample.query_ms)).pop();
         row.push(Field::Words(
             last.map_or("-".to_owned(), |p| format!("{}", p.x)),
         ));
@@ -140,64 +141,49 @@ fn table(quantity: Quantity, samples: &[&Sample], planners: &[&str]) -> Table {
     table
 }
 
-/// The median of a cost at each value, over solved runs.
-fn medians(samples: &[&Sample], planner: &str, cost: fn(&Sample) -> f64) -> Vec<Point2> {
-    let solved = samples
-        .iter()
-        .filter(|s| s.planner == planner && s.is_solved);
-    let solved: Vec<&&Sample> = solved.collect();
-    let mut xs: Vec<f64> = solved.iter().map(|sample| sample.x).collect();
-    xs.dedup();
-    let median = |x: f64| {
-        let at_x = solved.iter().filter(|sample| sample.x == x);
-        let values: Vec<f64> = at_x.map(|sample| cost(sample)).collect();
-        quartiles(&values).map(|[_, middle, _]| Point2::new(x, middle))
+/// Quartiles of a cost at each value, over solved runs: `[x, lower, median, upper]`.
+fn spreads(samples: &[&Sample], planner: &str, cost: fn(&Sample) -> f64) -> Vec<[f64; 4]> {
+    let is_it = |sample: &&&Sample| sample.planner == planner && sample.is_solved;
+    let solved: Vec<&&Sample> = samples.iter().filter(is_it).collect();
+    let at_x = solved.chunk_by(|a, b| a.x == b.x);
+    let spread = |runs: &[&&Sample]| {
+        let values: Vec<f64> = runs.iter().map(|sample| cost(sample)).collect();
+        quartiles(&values).map(|[low, middle, high]| [runs[0].x, low, middle, high])
     };
-    xs.into_iter().filter_map(median).collect()
+    at_x.filter_map(spread).collect()
 }
 
-/// Medians as lines, fits as dashed ones, both axes in powers of ten.
-fn figure(quantity: Quantity, cost: &Cost, samples: &[&Sample], planners: &[&str]) -> Figure {
+fn medians(spreads: &[[f64; 4]]) -> Vec<Point2> {
+    let median = |&[x, _, middle, _]: &[f64; 4]| Point2::new(x, middle);
+    spreads.iter().map(median).collect()
+}
+
+/// Medians and quartiles on logarithmic axes, each planner with its exponent.
+fn plot(quantity: Quantity, cost: &Cost, samples: &[&Sample], planners: &[&str]) -> Bands {
     let (name, unit, value) = *cost;
-    let log = |points: &[Point2]| -> Vec<Point2> {
-        let positive = points.iter().filter(|p| p.x > 0.0 && p.y > 0.0);
-        positive
-            .map(|p| Point2::new(p.x.log10(), p.y.log10()))
-            .collect()
-    };
-    let mut series = Vec::new();
-    for (planner, &color) in planners.iter().zip(SERIES_COLORS.iter().cycle()) {
-        let points = medians(samples, planner, value);
-        let label = match PowerLaw::through(&points) {
-            Some(law) => {
-                let fitted = points.iter().map(|p| Point2::new(p.x, law.at(p.x)));
-                let fitted = log(&fitted.collect::<Vec<_>>());
-                series.push(Series {
-                    dash: Dash::Dashed,
-                    ..Series::new("", fitted, color)
-                });
+    let course = |planner: &&str| {
+        let points = spreads(samples, planner, value);
+        let exponent = PowerLaw::through(&medians(&points));
+        Course {
+            name: exponent.map_or((*planner).to_owned(), |law| {
                 format!("{planner}: {:.2}", law.exponent)
-            }
-            None => (*planner).to_owned(),
-        };
-        series.push(Series::new(&label, log(&points), color));
-    }
-    let chart = Chart {
-        x: Axis::named(&format!("log10 of {}", quantity.about())),
-        y: Axis::named(&format!("log10 of {unit}")),
-        series,
-        ..Chart::default()
+            }),
+            points,
+        }
     };
-    let picture = Picture {
-        title: format!("{name} over {}", quantity.about()),
-        charts: vec![chart],
-        ..Picture::default()
-    };
-    Figure {
+    Bands {
         caption: format!(
-            "Medians of {name} ({unit}), and dashed the power law through them with its exponent."
+            "{name} over {}: medians of solved runs and the band between their quartiles; beside \
+             each planner the exponent of the power law through its medians.",
+            quantity.about()
         ),
-        svg: picture.to_svg(),
+        quantity: format!("{name}, {unit}"),
+        y_scale: ScaleKind::Log,
+        panels: vec![BandPanel {
+            x: quantity.about().to_owned(),
+            x_scale: ScaleKind::Log,
+            courses: planners.iter().map(course).collect(),
+        }],
     }
 }
 
@@ -234,9 +220,11 @@ mod tests {
         let row =
             "| astar | 9/10 | 1.00 | 1.000 | 2.00 | 1.000 | 1.00 | 1.000 | 1000 | 1000000.00 |";
         assert!(text.contains(row), "{text}");
-        let Block::Figure(figure) = &report.sections[0].blocks[2] else {
-            panic!("a figure");
+        let Block::Bands(bands) = &report.sections[0].blocks[2] else {
+            panic!("a plot of query times");
         };
-        assert!(figure.svg.contains("astar: 2.00"));
+        let course = &bands.panels[0].courses[0];
+        assert_eq!(course.name, "astar: 2.00");
+        assert_eq!(course.points[0], [10.0, 99.5, 100.0, 100.5]);
     }
 }

@@ -10,8 +10,6 @@ use std::collections::BTreeSet;
 
 /// Scenarios that are drawn at most: the first ones.
 const MOST_DRAWN: usize = 8;
-/// Spacing of drawn places along a path, metres.
-const SPACING_M: f64 = 0.1;
 /// What is shown around the paths: a share of their extent, and so many metres.
 const MARGIN: (f64, f64) = (0.06, 2.0);
 
@@ -71,15 +69,10 @@ fn draw(scene: &Scene, ground: &Ground) -> Vec<Block> {
     let [scenario, vehicle, motion] = scene.place;
     let (planner, path) = &scene.paths[0];
     let vehicle_name = if vehicle.is_empty() { "own" } else { vehicle };
-    let places = |path: &CurvePath| -> Vec<Point2> {
-        let samples = path.sample(SPACING_M).into_iter();
-        samples.map(|sample| sample.pose.position()).collect()
-    };
-    let paths = scene.paths.iter().map(|(name, path)| OverlayPath {
-        name: (*name).to_owned(),
-        points: places(path),
-    });
-    let paths: Vec<OverlayPath> = paths.collect();
+    let paths = scene.paths.iter();
+    let paths: Vec<OverlayPath> = paths
+        .map(|(name, path)| OverlayPath::along(name, path))
+        .collect();
     let overlay = Overlay {
         caption: format!(
             "`{scenario}`, vehicle {vehicle_name}, {motion}: the first path of every planner."

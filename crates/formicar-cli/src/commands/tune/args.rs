@@ -1,10 +1,10 @@
 //! Flags of `tune`.
 #![allow(clippy::doc_markdown, reason = "clap prints these words as they stand")]
 
+use crate::args::Modes;
 use crate::values;
 use clap::{Args, ValueHint};
 use formicar::planner::PlannerName;
-use formicar::scenario::{GoalHeading, MotionMode, StartHeading};
 use formicar::tuning::BeeVariant;
 use formicar_lab::tuning::{Measure, OwnRange};
 use std::path::PathBuf;
@@ -104,20 +104,8 @@ pub(crate) struct TuneArgs {
           value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) budget: u64,
 
-    /// Which gears may be used; `reverse` allows both and penalizes reverse.
-    #[arg(long, value_name = "MODE",
-          value_parser = values::word::<MotionMode>(&["forward", "reverse"]))]
-    pub(crate) motion: Option<MotionMode>,
-
-    /// Whether the start heading is fixed.
-    #[arg(long, value_name = "MODE",
-          value_parser = values::word::<StartHeading>(&["exact", "any"]))]
-    pub(crate) start_heading: Option<StartHeading>,
-
-    /// Whether the goal heading is fixed; `bidirectional` allows the opposite one too.
-    #[arg(long, value_name = "MODE",
-          value_parser = values::word::<GoalHeading>(&["exact", "bidirectional", "any"]))]
-    pub(crate) goal_heading: Option<GoalHeading>,
+    #[command(flatten)]
+    pub(crate) modes: Modes,
 
     /// Runs at once; the result never depends on it.
     #[arg(long, value_name = "N", default_value_t = 1,

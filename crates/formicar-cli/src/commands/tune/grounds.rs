@@ -71,9 +71,9 @@ fn prepared(args: &TuneArgs, name: String, place: &GroundArgs) -> Result<Asked> 
         .with_context(|| format!("{name}: it has no start and goal"))?;
     let whole = Request::new(start, goal);
     let request = Request {
-        motion: args.motion.unwrap_or(whole.motion),
-        start_heading: args.start_heading.unwrap_or(whole.start_heading),
-        goal_heading: args.goal_heading.unwrap_or(whole.goal_heading),
+        motion: args.modes.motion.unwrap_or(whole.motion),
+        start_heading: args.modes.start_heading.unwrap_or(whole.start_heading),
+        goal_heading: args.modes.goal_heading.unwrap_or(whole.goal_heading),
         budget_steps: Some(args.budget),
         ..whole
     };
