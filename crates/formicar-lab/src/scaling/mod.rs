@@ -20,13 +20,13 @@ use sample::Sample;
 /// Seeds of each query: times differ little between seeds.
 const N_SEEDS: u64 = 3;
 
-/// What is measured of a query: a word, its unit, and how it is got.
-type Cost = (&'static str, &'static str, fn(&Sample) -> f64);
+/// What is measured of a query: quantity with unit, and how it is got.
+type Cost = (&'static str, fn(&Sample) -> f64);
 
 const COSTS: [Cost; 3] = [
-    ("setup", "ms", |sample| sample.setup_ms),
-    ("query", "ms", |sample| sample.query_ms),
-    ("steps", "steps", |sample| sample.steps as f64),
+    ("set-up, ms", |sample| sample.setup_ms),
+    ("query, ms", |sample| sample.query_ms),
+    ("search steps", |sample| sample.steps as f64),
 ];
 
 /// Runs the experiment, and tells before each planner.
@@ -126,7 +126,7 @@ fn table(quantity: Quantity, samples: &[&Sample], planners: &[&str]) -> Table {
             Field::words(planner),
             Field::Count(n_solved, of_planner.count()),
         ];
-        for (_, _, cost) in &COSTS {
+        for (_, cost) in &COSTS {
             let law = PowerLaw::through(&medians(&spreads(samples, planner, *cost)));
             row.push(Field::Number(law.map(|law| law.exponent), 2));
             row.push(Field::Number(law.map(|law| law.r_squared), 3));
@@ -160,7 +160,7 @@ fn medians(spreads: &[[f64; 4]]) -> Vec<Point2> {
 
 /// Medians and quartiles on logarithmic axes, each planner with its exponent.
 fn plot(quantity: Quantity, cost: &Cost, samples: &[&Sample], planners: &[&str]) -> Bands {
-    let (name, unit, value) = *cost;
+    let (name, value) = *cost;
     let course = |planner: &&str| {
         let points = spreads(samples, planner, value);
         let exponent = PowerLaw::through(&medians(&points));
@@ -173,11 +173,11 @@ fn plot(quantity: Quantity, cost: &Cost, samples: &[&Sample], planners: &[&str])
     };
     Bands {
         caption: format!(
-            "{name} over {}: medians of solved runs and the band between their quartiles; beside \
-             each planner the exponent of the power law through its medians.",
+            "Over {}: medians of solved runs and the band between their quartiles; beside each \
+             planner the exponent of the power law through its medians.",
             quantity.about()
         ),
-        quantity: format!("{name}, {unit}"),
+        quantity: name.to_owned(),
         y_scale: ScaleKind::Log,
         panels: vec![BandPanel {
             x: quantity.about().to_owned(),
