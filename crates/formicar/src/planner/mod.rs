@@ -20,14 +20,15 @@ mod request_document;
 mod run;
 mod sealed;
 mod sections;
+mod stored_path;
 mod update;
 mod via;
 mod via_record;
 
 pub use crate::search::{HybridAstarConfig, ImprovedAstarConfig};
 pub use answer::{
-    ANSWER_SCHEMA, Answer, AnswerContext, AnswerError, CertificateHashes, CertificateNumbers,
-    ColonyRecord, MapRecord, Provenance, SoftCostsRecord, StoredPath, Timing, VehicleRecord,
+    ANSWER_SCHEMA, Answer, AnswerContext, ColonyRecord, MapRecord, Provenance, SoftCostsRecord,
+    Timing, VehicleRecord,
 };
 pub use config::{ConfigError, GridSearchConfig, PlannerConfig, PlannerName};
 pub use explanation::{Collision, Disconnected, Explanation, Gap};
@@ -35,6 +36,7 @@ pub use outcome::{NotFound, Outcome, Plan, PlanError, Stages};
 pub use path_document::{POSE_SPACING_M, PathDocument, PoseRecord, SegmentRecord};
 pub use replan::ReplanConfig;
 pub use request_document::RequestDocument;
+pub use stored_path::{AnswerError, CertificateHashes, CertificateNumbers, StoredPath};
 pub use via_record::ViaRecord;
 
 use crate::collision::ObstacleMap;
