@@ -1,7 +1,7 @@
 //! Pictures and films of the ants that found a path, or did not.
 
 use crate::ground::Ground;
-use crate::picture::{self, PNG_WIDTH_PX};
+use crate::picture::PNG_WIDTH_PX;
 use crate::summary::counted;
 use anyhow::{Result, bail};
 use formicar::planner::{Answer, Outcome, PlannerName, Stages};
@@ -46,7 +46,7 @@ pub(crate) fn encode(
     kind: AntsKind,
 ) -> Result<Vec<u8>> {
     let stages = outcome.stages();
-    let [start, goal] = picture::ends(answer);
+    let [start, goal] = answer.ends();
     let colony = ColonyPicture {
         map: &ground.map,
         vehicle: &ground.vehicle.vehicle,
@@ -55,7 +55,7 @@ pub(crate) fn encode(
         stages,
         frames,
         path: outcome.judged().map(|(path, _)| path),
-        title: &picture::title(ground, answer),
+        title: &answer.title(),
         caption: &caption(answer, stages),
     };
     Ok(match kind {

@@ -53,7 +53,10 @@ impl Clock {
 
 impl Observer for Clock {
     fn on_event(&mut self, event: &Event) {
-        if let Event::Improved { length_m, n_steps } = *event {
+        if let Event::Improved {
+            length_m, n_steps, ..
+        } = *event
+        {
             self.paths.push(PathTold {
                 at: self.begun.elapsed(),
                 length_m,

@@ -3,6 +3,7 @@
 use super::convex::{Square, edges, point_segment};
 use super::{Body, ObstacleMap};
 use crate::geometry::{Point2, Pose2};
+use crate::vehicle::Vehicle;
 
 /// A distance and the point of the obstacle at which it is measured.
 type Contact = (f64, Point2);
@@ -28,6 +29,13 @@ impl ObstacleMap {
             .filter(|&(col, row)| self.rim().contains(col as i64, row as i64))
             .filter_map(|cell| square_contact(&corners, &self.square(cell)));
         nearest(squares.chain([border])).map_or(pose.position(), |(_, place)| place)
+    }
+
+    /// The same for a vehicle at a world pose, in world coordinates.
+    pub fn contact(&self, vehicle: &Vehicle, pose: Pose2) -> Point2 {
+        let frame = self.frame();
+        let place = self.nearest_obstacle(&Body::new(vehicle), frame.to_grid(pose));
+        frame.to_world(Pose2::at(place, 0.0)).position()
     }
 
     fn square(&self, (col, row): (usize, usize)) -> Square {
@@ -73,7 +81,6 @@ mod tests {
     use super::*;
     use crate::collision::convex::point_boundary;
     use crate::map::OccupancyGrid;
-    use crate::vehicle::Vehicle;
 
     #[test]
     fn finds_the_corner_beside_the_body_and_the_border() {

@@ -107,7 +107,7 @@ impl Planner {
         let path = self.driven(request, start, arcs).path;
         let report = judge(&self.obstacles, &self.vehicle, request, &path);
         if report.certify().is_ok() {
-            limits.tell_improved(path.length_m());
+            limits.tell_improved(&path);
         }
     }
 }

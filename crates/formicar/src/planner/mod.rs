@@ -130,6 +130,11 @@ impl Planner {
         &self.vehicle
     }
 
+    /// Every parameter.
+    pub fn config(&self) -> &PlannerConfig {
+        &self.config
+    }
+
     /// Plans one request. Same map, vehicle, configuration, request and seed: same path.
     ///
     /// # Errors

@@ -188,7 +188,7 @@ impl Planner {
         };
         match judge(&self.obstacles, &self.vehicle, request, &found.path).certify() {
             Ok(certificate) => {
-                limits.tell_improved(found.path.length_m());
+                limits.tell_improved(&found.path);
                 let min_m = certificate.min_clearance_m;
                 let clearance =
                     ClearanceSummary::new(&self.obstacles, &self.vehicle, &found.path, min_m);

@@ -70,7 +70,8 @@ impl AntFrames {
         if last.is_some_and(|last| !self.is_kept(last)) {
             self.frames.pop();
         }
-        self.frames.push(AntFrame::of(view, self.grid));
+        self.frames
+            .push(AntFrame::of(view, (self.grid.0, self.grid.1)));
         let n_most = Self::MAX_CELLS / self.grid.n_cells().max(1);
         if self.frames.len() > n_most.clamp(4, Self::MAX_FRAMES) {
             self.stride = self.stride.saturating_mul(2);
@@ -100,7 +101,8 @@ impl Observer for AntFrames {
 }
 
 impl AntFrame {
-    fn of(view: &ColonyView, grid: Grid) -> Self {
+    /// What is seen of an iteration on a grid of so many columns and rows.
+    pub fn of(view: &ColonyView, (n_cols, n_rows): (usize, usize)) -> Self {
         let ants = |arrived: bool| {
             let ants = 0..view.ways.n_ants();
             let ants = ants.filter(|&ant| view.ways.arrived[ant] == arrived);
@@ -111,7 +113,7 @@ impl AntFrame {
             arrived: ants(true),
             lost: ants(false),
             best: view.ways.best.map(|ant| view.ways.way(ant)),
-            pheromone: view.pheromone.by_cell(grid.0, grid.1),
+            pheromone: view.pheromone.by_cell(n_cols, n_rows),
         }
     }
 }
@@ -211,7 +213,7 @@ mod tests {
             ways: WAYS,
             pheromone: Pheromone::Cells(&[0.5; 6]),
         };
-        let frame = AntFrame::of(&view, Grid(3, 2));
+        let frame = AntFrame::of(&view, (3, 2));
         let [a, b, c] = [0, 1, 2].map(|col| Cell::new(col, 0));
         let passed = |cells, n_passed| Traffic { cells, n_passed };
         assert_eq!(frame.arrived, [passed([a, b], 1), passed([b, c], 3)]);

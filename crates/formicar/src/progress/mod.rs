@@ -1,13 +1,16 @@
 //! How a run is watched, timed, limited and stopped; how it may end.
 
+mod driving;
 mod frames;
 mod iteration;
 mod population;
 
+pub use driving::{DriveView, DriveWay, ReachedView};
 pub use frames::{AntFrame, AntFrames, Traffic, pheromone_by_cell};
 pub use iteration::{AntWays, ColonyView, IterationRecord, Pheromone, path_of};
 pub use population::PopulationView;
 
+use crate::path::CurvePath;
 use crate::scenario::ErrorCode;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
@@ -26,6 +29,11 @@ pub trait Observer {
 
     /// Whether the caller wants the run to stop.
     fn is_cancelled(&mut self) -> bool {
+        false
+    }
+
+    /// Whether it wants to hear of [`Event::Reached`], which takes time to gather.
+    fn watches_search(&self) -> bool {
         false
     }
 }
@@ -47,11 +55,17 @@ pub enum Event<'a> {
     },
     /// A certified path, first or better than the last.
     Improved {
+        /// The path, world coordinates.
+        path: &'a CurvePath,
         /// Its length in metres.
         length_m: f64,
         /// Search steps so far.
         n_steps: u64,
     },
+    /// Ants that drive ended a generation.
+    Drive(DriveView<'a>),
+    /// Hybrid A* has come farther; told only to whom [watches](Observer::watches_search).
+    Reached(ReachedView<'a>),
     /// A colony ended an iteration.
     Iteration(ColonyView<'a>),
     /// A population ended a generation.
@@ -219,14 +233,23 @@ impl<'a> Limits<'a> {
         }
     }
 
-    /// Tells the observer of a certified path of a length, unless it is the one told last.
-    pub fn tell_improved(&mut self, length_m: f64) {
+    /// Tells the observer of a certified path, unless it is as long as the one told last.
+    pub fn tell_improved(&mut self, path: &CurvePath) {
+        let length_m = path.length_m();
         if self.told_m == Some(length_m) || self.tells_no_paths {
             return;
         }
         self.told_m = Some(length_m);
-        let n_steps = self.n_steps;
-        self.tell(&Event::Improved { length_m, n_steps });
+        self.tell(&Event::Improved {
+            path,
+            length_m,
+            n_steps: self.n_steps,
+        });
+    }
+
+    /// Whether the observer wants to hear how far a search has come.
+    pub fn watches_search(&self) -> bool {
+        self.observer.watches_search()
     }
 
     /// Does some work whose paths are parts of the one that is asked for: the observer is not told

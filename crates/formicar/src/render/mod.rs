@@ -5,6 +5,7 @@
 //! limits come in as values. The same input gives the same bytes. Text is drawn as strokes, so
 //! that no font is needed and a picture looks the same everywhere.
 
+mod answer;
 mod ants;
 mod cells;
 mod chart;
@@ -35,6 +36,7 @@ mod svg;
 mod ticks;
 mod view;
 
+pub use answer::{AnswerPicture, answer_picture};
 pub use chart::{Axis, Band, Chart, Limit, Ribbon, SERIES_COLORS, Series, Side};
 pub use colony::{ColonyPicture, colony_film, colony_picture};
 pub use convergence::convergence_charts;

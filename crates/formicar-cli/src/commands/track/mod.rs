@@ -83,7 +83,7 @@ fn write_picture(driven: &Driven, target: &Target<PictureKind>) -> Result<()> {
     let (ground, clearance) = (driven.ground, driven.clearance);
     let vehicle = &ground.vehicle.vehicle;
     let nearest_at = clearance.contact.map_or(clearance.tightest, |c| c.pose);
-    let place = picture::contact(driven.obstacles, vehicle, nearest_at);
+    let place = driven.obstacles.contact(vehicle, nearest_at);
     let image = drive_picture(&DrivePicture {
         map: &ground.map,
         vehicle,

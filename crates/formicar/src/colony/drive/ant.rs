@@ -2,23 +2,11 @@
 
 use super::DriveConfig;
 use super::walk::Ground;
-use crate::geometry::{Arc, Point2, Pose2};
+use crate::geometry::{Arc, Point2};
 use crate::numeric::RandomStream;
+use crate::progress::DriveWay;
 use crate::search::{DriveProblem, Guide, State};
 use std::collections::HashSet;
-
-/// Where an ant drove.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Way {
-    /// Where it began.
-    pub(super) start: Pose2,
-    /// What it drove; to the goal pose where it arrived.
-    pub(super) arcs: Vec<Arc>,
-    /// Where it died, if it did.
-    pub(super) died_at: Option<Point2>,
-    /// Decisions that it took.
-    pub(super) n_steps: u64,
-}
 
 /// A curve to the goal may be this many times as long as the way along the field,
 const SHOT_RATIO: f64 = 1.5;
@@ -62,7 +50,7 @@ impl<'a> Ant<'a> {
         start: State,
         draw: &mut RandomStream,
         is_greedy: bool,
-    ) -> Way {
+    ) -> DriveWay {
         let guide = &ground.guide;
         self.states.clear();
         self.visited.clear();
@@ -178,9 +166,9 @@ impl<'a> Ant<'a> {
         self.best()
     }
 
-    fn arrived(&self, shot: &[Arc], n_steps: u64) -> Way {
+    fn arrived(&self, shot: &[Arc], n_steps: u64) -> DriveWay {
         let driven = self.states[1..].iter().map(|state| state.arc);
-        Way {
+        DriveWay {
             start: self.states[0].pose,
             arcs: driven.chain(shot.iter().copied()).collect(),
             died_at: None,
@@ -188,8 +176,8 @@ impl<'a> Ant<'a> {
         }
     }
 
-    fn dead(&self, died_at: Option<Point2>, n_steps: u64) -> Way {
-        Way {
+    fn dead(&self, died_at: Option<Point2>, n_steps: u64) -> DriveWay {
+        DriveWay {
             died_at,
             ..self.arrived(&[], n_steps)
         }

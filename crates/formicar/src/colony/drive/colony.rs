@@ -6,7 +6,7 @@ use super::{DriveConfig, repair};
 use crate::colony::crew::{Crew, with_crew};
 use crate::geometry::{Arc, Pose2};
 use crate::numeric::Seed;
-use crate::progress::{Limits, Status};
+use crate::progress::{DriveView, DriveWay, Event, Limits, Status};
 use crate::search::{DriveProblem, Driven, Guide, State};
 use std::sync::Arc as Shared;
 
@@ -70,9 +70,14 @@ impl<'a> DriveColony<'a, '_> {
     /// # Errors
     /// Budget, deadline or cancel.
     pub fn look_for_a_way(&mut self, limits: &mut Limits) -> Result<Option<Driven>, Status> {
-        self.walk();
+        let ways = self.walk();
+        let n_told = ways.iter().position(|way| way.died_at.is_none());
+        self.tell(
+            &ways[..n_told.map_or(ways.len(), |place| place + 1)],
+            limits,
+        );
         let mut deaths = Vec::new();
-        for way in std::mem::take(&mut self.ways.0) {
+        for way in ways {
             limits.look()?;
             if limits.take(way.n_steps) < way.n_steps {
                 return Err(Status::BudgetExhausted);
@@ -113,8 +118,8 @@ impl<'a> DriveColony<'a, '_> {
         ground.trails.renew(rho, deposit, (start, arcs));
         ground.first_wins = false;
         ground.starts = branches.iter().map(|branch| branch.1).collect();
-        self.walk();
-        let ways = std::mem::take(&mut self.ways.0);
+        let ways = self.walk();
+        self.tell(&ways, limits);
         let mut whole = Vec::new();
         for (index, way) in ways.into_iter().enumerate() {
             limits.look()?;
@@ -129,10 +134,21 @@ impl<'a> DriveColony<'a, '_> {
         Ok(whole)
     }
 
-    fn walk(&mut self) {
+    /// The ways of a generation.
+    fn walk(&mut self) -> Vec<DriveWay> {
         self.crew
             .walk(&self.ground, self.generation, &mut self.ways);
         self.generation += 1;
+        std::mem::take(&mut self.ways.0)
+    }
+
+    /// Tells the observer of the generation that has walked.
+    fn tell(&self, ways: &[DriveWay], limits: &mut Limits) {
+        limits.tell(&Event::Drive(DriveView {
+            generation: self.generation - 1,
+            n_steps: limits.n_steps(),
+            ways,
+        }));
     }
 }
 

@@ -1,10 +1,11 @@
 //! Ants on the threads of a crew, and their ways in their order.
 
 use super::DriveConfig;
-use super::ant::{Ant, Way};
+use super::ant::Ant;
 use super::trails::Trails;
 use crate::colony::crew::{Part, Walk};
 use crate::numeric::Seed;
+use crate::progress::DriveWay;
 use crate::search::{DriveProblem, Guide, State};
 use std::ops::Range;
 
@@ -39,7 +40,7 @@ impl<'a> Walker<'a> {
 
 /// Ways of some ants, in their order.
 #[derive(Default)]
-pub(super) struct Ways(pub(super) Vec<Way>);
+pub(super) struct Ways(pub(super) Vec<DriveWay>);
 
 impl Part for Ways {
     fn clear(&mut self) {

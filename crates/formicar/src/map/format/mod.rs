@@ -27,7 +27,7 @@ pub use movingai::{
     MovingAiScenario, parse_movingai_map, parse_movingai_scenarios, read_movingai_scenarios,
     to_movingai_map,
 };
-pub use read::{ReadOptions, read_map};
+pub use read::{ReadOptions, map_from_bytes, read_map};
 pub use ros::{RosMapDescription, RosMapMode};
 pub use tpcap::{TPCAP_MARGIN_M, TpcapCase};
 pub use write::{ros_pgm, ros_png, write_map};

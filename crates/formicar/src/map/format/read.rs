@@ -36,13 +36,27 @@ pub fn read_map(path: &Path, options: &ReadOptions) -> Result<OccupancyGrid, For
         return check_resolution(grid, options).map_err(|e| e.in_file(path));
     }
     let bytes = read_bytes(path, MAX_MAP_BYTES)?;
+    map_from_bytes(path, &bytes, options)
+}
+
+/// Reads the bytes of a map file that stands alone: any that [`read_map`] knows but a ROS map,
+/// whose YAML names an image.
+///
+/// # Errors
+/// As [`read_map`]; of a ROS map, that its kind of file is unknown.
+pub fn map_from_bytes(
+    path: &Path,
+    bytes: &[u8],
+    options: &ReadOptions,
+) -> Result<OccupancyGrid, FormatError> {
+    let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
     let grid = match extension.to_str() {
-        Some("pgm" | "png") => image(&bytes, options),
-        Some("map" | "txt" | "csv") => text(&bytes, "a map as text").and_then(|text| {
+        Some("pgm" | "png") => image(bytes, options),
+        Some("map" | "txt" | "csv") => text(bytes, "a map as text").and_then(|text| {
             let movingai = extension == "map" || text.starts_with("type ");
             text_map(text, movingai, options)
         }),
-        _ => by_content(&bytes, &extension.to_string_lossy(), options),
+        _ => by_content(bytes, &extension.to_string_lossy(), options),
     };
     grid.map_err(|e| e.in_file(path))
 }

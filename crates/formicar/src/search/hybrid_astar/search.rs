@@ -3,7 +3,7 @@
 use super::open_list::{Entry, OpenList, Step};
 use super::state_costs::StateCosts;
 use super::tree::Tree;
-use crate::progress::{Limits, Status};
+use crate::progress::{Event, Limits, ReachedView, Status};
 use crate::search::drive::{DriveProblem, Driven, Guide, State};
 
 /// A search that can be interrupted.
@@ -12,7 +12,12 @@ pub struct HybridSearch<'a> {
     tree: Tree,
     states: StateCosts,
     open: OpenList,
+    /// States of the tree that the observer has heard of.
+    n_told: usize,
 }
+
+/// After so many more states the observer hears of them.
+const TOLD_STATES: usize = 500;
 
 impl<'a> HybridSearch<'a> {
     /// A search about to begin.
@@ -29,6 +34,7 @@ impl<'a> HybridSearch<'a> {
             tree: Tree::default(),
             states: StateCosts::new(),
             open: OpenList::default(),
+            n_told: 0,
         };
         for start in problem.start_states() {
             let root = search.tree.add(start, None);
@@ -48,8 +54,33 @@ impl<'a> HybridSearch<'a> {
         n_steps: u64,
         limits: &mut Limits,
     ) -> Result<Option<Driven>, Status> {
+        let result = self.go_on(guide, n_steps, limits);
+        self.tell(limits);
+        result
+    }
+
+    /// Tells an observer that watches which states were reached since.
+    fn tell(&mut self, limits: &mut Limits) {
+        let first = std::mem::replace(&mut self.n_told, self.tree.len());
+        if limits.watches_search() && first < self.tree.len() {
+            limits.tell(&Event::Reached(ReachedView {
+                n_steps: limits.n_steps(),
+                motions: &self.tree.motions_from(first),
+            }));
+        }
+    }
+
+    fn go_on(
+        &mut self,
+        guide: &mut Guide,
+        n_steps: u64,
+        limits: &mut Limits,
+    ) -> Result<Option<Driven>, Status> {
         let mut n_left = n_steps;
         while let Some(entry) = self.open.peek() {
+            if self.tree.len() >= self.n_told + TOLD_STATES {
+                self.tell(limits);
+            }
             match entry.step {
                 Step::Shot(shot) => return Ok(Some(self.path(entry.node, Some(shot)))),
                 Step::Move(step) => {

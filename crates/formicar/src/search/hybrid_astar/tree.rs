@@ -1,6 +1,6 @@
 //! The search tree: how each state was reached.
 
-use crate::geometry::Arc;
+use crate::geometry::{Arc, Pose2};
 use crate::search::drive::{Driven, State};
 
 /// No parent: a start.
@@ -23,6 +23,20 @@ impl Tree {
 
     pub(super) fn state(&self, id: u32) -> &State {
         &self.states[id as usize]
+    }
+
+    /// States reached.
+    pub(super) fn len(&self) -> usize {
+        self.states.len()
+    }
+
+    /// The motions to the states from a place in the tree on, each from where it begins; starts
+    /// have none.
+    pub(super) fn motions_from(&self, first: usize) -> Vec<(Pose2, Arc)> {
+        let reached = self.states[first..].iter().zip(&self.parents[first..]);
+        let reached = reached.filter(|&(_, &parent)| parent != NONE);
+        let motions = reached.map(|(state, &parent)| (self.state(parent).pose, state.arc));
+        motions.collect()
     }
 
     pub(super) fn add_shot(&mut self, arcs: Vec<Arc>) -> u32 {

@@ -1,0 +1,36 @@
+//! What searches tell that drive.
+
+use crate::geometry::{Arc, Point2, Pose2};
+
+/// The way of an ant that drives; grid coordinates.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DriveWay {
+    /// Where it began.
+    pub start: Pose2,
+    /// What it drove; to the goal pose where it arrived.
+    pub arcs: Vec<Arc>,
+    /// Where it died, if it did; it may have retreated since.
+    pub died_at: Option<Point2>,
+    /// Decisions that it took.
+    pub n_steps: u64,
+}
+
+/// A generation of ants that drive, at its end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DriveView<'a> {
+    /// Its number, from 0, in its stage of the race.
+    pub generation: u32,
+    /// Search steps so far.
+    pub n_steps: u64,
+    /// The ways of its ants; where the first to arrive wins, up to that one.
+    pub ways: &'a [DriveWay],
+}
+
+/// Motions of hybrid A* to states that it has reached since it told of them last.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReachedView<'a> {
+    /// Search steps so far.
+    pub n_steps: u64,
+    /// Each from the pose where it begins; grid coordinates.
+    pub motions: &'a [(Pose2, Arc)],
+}
