@@ -2,7 +2,7 @@
 
 use crate::commands::{
     BenchArgs, CompareArgs, ImportArgs, MapArgs, ReportArgs, ReproduceArgs, RivalPlanner,
-    StressArgs, TrackArgs, TuneArgs,
+    StressArgs, StudioArgs, TrackArgs, TuneArgs,
 };
 use crate::values;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
@@ -48,6 +48,8 @@ pub(crate) enum Command {
     Stress(StressArgs),
     /// Look for better parameters of a planner on scenarios; try them on others.
     Tune(Box<TuneArgs>),
+    /// Serve a page on this machine: see the ants, touch the map, drive the path.
+    Studio(StudioArgs),
     /// Describe, convert and generate maps; measure the way between two places.
     Map(MapArgs),
     /// List planners, built-in vehicles and maps, or the scenarios of a file.

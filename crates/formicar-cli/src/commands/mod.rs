@@ -16,6 +16,7 @@ mod results;
 mod rival;
 mod stdin;
 mod stress;
+mod studio;
 mod subject;
 mod track;
 mod tune;
@@ -28,6 +29,7 @@ pub(crate) use report::ReportArgs;
 pub(crate) use reproduce::ReproduceArgs;
 pub(crate) use rival::RivalPlanner;
 pub(crate) use stress::StressArgs;
+pub(crate) use studio::StudioArgs;
 pub(crate) use track::TrackArgs;
 pub(crate) use tune::TuneArgs;
 
@@ -51,6 +53,7 @@ pub(crate) fn run(command: &Command, out: &mut impl Write) -> Result<Ending, Fai
         Command::Report(args) => report::run(args, out),
         Command::Reproduce(args) => reproduce::run(args, out),
         Command::Stress(args) => stress::run(args, out),
+        Command::Studio(args) => studio::run(args),
         Command::Tune(args) => tune::run(args, out),
         Command::Map(args) => map::run(args, out),
         Command::List(args) => list::run(args, out),

@@ -1,0 +1,149 @@
+//! Who may come in, and what a browser may do with the page.
+
+use crate::Studio;
+use axum::extract::{Request, State};
+use axum::http::header::{
+    CACHE_CONTROL, CONTENT_SECURITY_POLICY, COOKIE, HOST, HeaderName, HeaderValue, ORIGIN,
+    REFERRER_POLICY, X_CONTENT_TYPE_OPTIONS, X_FRAME_OPTIONS,
+};
+use axum::http::{HeaderMap, StatusCode, Uri};
+use axum::middleware::Next;
+use axum::response::{IntoResponse, Response};
+use std::net::IpAddr;
+use std::sync::Arc;
+
+/// What the page may load: its own files and nothing else.
+const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; \
+    img-src 'self' data: blob:; connect-src 'self'; manifest-src 'self'; base-uri 'none'; \
+    form-action 'none'; frame-ancestors 'none'";
+
+/// Lets a request in or not, and says on every answer what a browser may do.
+pub(crate) async fn guard(
+    State(studio): State<Arc<Studio>>,
+    request: Request,
+    next: Next,
+) -> Response {
+    let token = studio.options.token.as_deref();
+    let mut response = match refusal(request.headers(), request.uri(), token) {
+        Some((status, reason)) => (status, reason).into_response(),
+        None => next.run(request).await,
+    };
+    let headers = response.headers_mut();
+    let said: [(HeaderName, &'static str); 5] = [
+        (CONTENT_SECURITY_POLICY, POLICY),
+        (X_CONTENT_TYPE_OPTIONS, "nosniff"),
+        (X_FRAME_OPTIONS, "DENY"),
+        (REFERRER_POLICY, "no-referrer"),
+        (CACHE_CONTROL, "no-cache"),
+    ];
+    for (name, value) in said {
+        headers.insert(name, HeaderValue::from_static(value));
+    }
+    response
+}
+
+/// Why a request is not let in; none where it is.
+///
+/// With a token who knows it is let in. Without one only this machine can ask, but a browser on it
+/// may ask for the sake of a page from elsewhere: such a page has another origin, or, where its
+/// name was made to lead here, another host.
+fn refusal(
+    headers: &HeaderMap,
+    uri: &Uri,
+    token: Option<&str>,
+) -> Option<(StatusCode, &'static str)> {
+    let host = headers.get(HOST).and_then(|host| host.to_str().ok());
+    let origin = headers.get(ORIGIN).map(|origin| origin.to_str());
+    let is_own = match (origin, host) {
+        (None, _) => true,
+        (Some(Ok(origin)), Some(host)) => origin
+            .split_once("://")
+            .is_some_and(|(_, named)| named == host),
+        _ => false,
+    };
+    if !is_own {
+        return Some((
+            StatusCode::FORBIDDEN,
+            "only the studio's own page may ask\n",
+        ));
+    }
+    match token {
+        Some(token) if !knows(headers, uri, token) => Some((
+            StatusCode::UNAUTHORIZED,
+            "a token is needed; hint: the address that the studio printed\n",
+        )),
+        None if !host.is_some_and(is_loopback) => {
+            Some((StatusCode::FORBIDDEN, "only localhost may be asked for\n"))
+        }
+        _ => None,
+    }
+}
+
+/// Whether a request has the token, in its address or as a cookie of the page.
+fn knows(headers: &HeaderMap, uri: &Uri, token: &str) -> bool {
+    let query = uri.query().unwrap_or_default().split('&');
+    let cookies = headers.get_all(COOKIE).iter();
+    let cookies = cookies.filter_map(|cookies| cookies.to_str().ok());
+    let cookies = cookies.flat_map(|cookies| cookies.split(';').map(str::trim));
+    let given = query.chain(cookies).filter_map(|pair| pair.split_once('='));
+    given
+        .filter(|(key, _)| *key == "token" || *key == "formicar_token")
+        .any(|(_, given)| is_same(given.as_bytes(), token.as_bytes()))
+}
+
+/// Compares without telling by time where two differ.
+fn is_same(a: &[u8], b: &[u8]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).fold(0, |all, (x, y)| all | (x ^ y)) == 0
+}
+
+/// Whether a host is a name of this machine for itself.
+fn is_loopback(host: &str) -> bool {
+    let name = match host.rsplit_once(':') {
+        Some((name, port)) if port.bytes().all(|byte| byte.is_ascii_digit()) => name,
+        _ => host,
+    };
+    let address = name.trim_matches(['[', ']']).parse::<IpAddr>();
+    name == "localhost" || address.is_ok_and(|address| address.is_loopback())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn status(host: &str, origin: Option<&str>, uri: &str, token: Option<&str>) -> u16 {
+        let mut headers = HeaderMap::new();
+        headers.insert(HOST, host.parse().unwrap());
+        if let Some(origin) = origin {
+            headers.insert(ORIGIN, origin.parse().unwrap());
+        }
+        refusal(&headers, &uri.parse().unwrap(), token).map_or(200, |(status, _)| status.as_u16())
+    }
+
+    #[test]
+    fn pages_from_elsewhere_may_not_ask() {
+        for host in [
+            "localhost:8484",
+            "127.0.0.1:8484",
+            "[::1]:8484",
+            "localhost",
+        ] {
+            assert_eq!(status(host, None, "/", None), 200, "{host}");
+            let own = format!("http://{host}");
+            assert_eq!(status(host, Some(&own), "/ws", None), 200, "{host}");
+            assert_eq!(status(host, Some("https://evil.example"), "/ws", None), 403);
+            assert_eq!(status(host, Some("null"), "/ws", None), 403);
+        }
+        assert_eq!(status("evil.example", None, "/", None), 403);
+        assert_eq!(status("localhost.evil.example:8484", None, "/", None), 403);
+    }
+
+    #[test]
+    fn with_a_token_who_knows_it_is_let_in() {
+        let token = Some("0123456789abcdef");
+        let host = "robot.local:8484";
+        assert_eq!(status(host, None, "/", token), 401);
+        assert_eq!(status(host, None, "/?token=0123456789abcdeg", token), 401);
+        assert_eq!(status(host, None, "/ws?token=0123456789abcdef", token), 200);
+        assert_eq!(status("localhost", None, "/", token), 401);
+    }
+}

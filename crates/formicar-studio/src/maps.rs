@@ -1,0 +1,187 @@
+//! Maps that visitors may open: the built-in ones, and what was uploaded or kept.
+
+use crate::options::Limits;
+use crate::protocol::{MapChoice, NamedRequest, PoseList};
+use formicar::collision::ObstacleMap;
+use formicar::geometry::Pose2;
+use formicar::map::builtin::{self, BuiltinMap};
+use formicar::map::{OccupancyGrid, UnknownPolicy};
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+
+/// A map as it was opened; shared by all who look at it.
+#[derive(Debug)]
+pub(crate) struct OpenMap {
+    pub(crate) name: String,
+    /// What opens it again; none for a built-in map.
+    pub(crate) hash: Option<String>,
+    pub(crate) grid: OccupancyGrid,
+    /// The same prepared for queries.
+    pub(crate) obstacles: Arc<ObstacleMap>,
+    pub(crate) builtin: Option<&'static BuiltinMap>,
+}
+
+impl OpenMap {
+    fn new(name: String, grid: OccupancyGrid, builtin: Option<&'static BuiltinMap>) -> Self {
+        let decided = grid.clone().with_unknown(UnknownPolicy::Occupied);
+        Self {
+            hash: builtin.is_none().then(|| hash(&grid)),
+            name,
+            obstacles: Arc::new(ObstacleMap::new(&decided)),
+            grid,
+            builtin,
+        }
+    }
+
+    /// What it suggests to ask.
+    pub(crate) fn requests(&self) -> Vec<NamedRequest> {
+        let requests = self.builtin.map_or(&[][..], |builtin| builtin.requests);
+        let named = |request: &builtin::BuiltinRequest| NamedRequest {
+            id: request.id.to_owned(),
+            start: list(request.start),
+            goal: list(request.goal),
+        };
+        requests.iter().map(named).collect()
+    }
+}
+
+/// A pose as messages have it.
+pub(crate) fn list(pose: Pose2) -> PoseList {
+    [pose.x, pose.y, pose.heading]
+}
+
+/// What opens a map again: a hash of its frame and of all its values.
+fn hash(grid: &OccupancyGrid) -> String {
+    let frame = grid.frame();
+    let origin = frame.origin();
+    let numbers = [frame.resolution_m(), origin.x, origin.y, origin.heading];
+    let sizes = [frame.n_cols() as u64, frame.n_rows() as u64];
+    let words = sizes.into_iter().chain(numbers.map(f64::to_bits));
+    let values = grid.values().iter().map(|&value| value as u8);
+    let bytes: Vec<u8> = words.flat_map(u64::to_le_bytes).chain(values).collect();
+    format!("{:032x}", xxhash_rust::xxh3::xxh3_128(&bytes))
+}
+
+/// All maps that can be opened.
+#[derive(Debug)]
+pub(crate) struct MapShelf {
+    builtin: Vec<OnceLock<Arc<OpenMap>>>,
+    kept: Mutex<VecDeque<Arc<OpenMap>>>,
+    limits: Limits,
+}
+
+impl MapShelf {
+    pub(crate) fn new(limits: Limits) -> Self {
+        Self {
+            builtin: builtin::all().iter().map(|_| OnceLock::new()).collect(),
+            kept: Mutex::default(),
+            limits,
+        }
+    }
+
+    /// Opens a map.
+    ///
+    /// # Errors
+    /// A name or a hash that no map here has.
+    pub(crate) fn open(&self, choice: &MapChoice) -> Result<Arc<OpenMap>, String> {
+        match choice {
+            MapChoice::Builtin(name) => self.builtin(name),
+            MapChoice::Hash(hash) => self.kept(hash).ok_or_else(|| {
+                format!(
+                    "no map with the content {hash} is here; hint: drop its file on the page, or keep it again"
+                )
+            }),
+        }
+    }
+
+    fn builtin(&self, name: &str) -> Result<Arc<OpenMap>, String> {
+        let map = BuiltinMap::by_name(name).map_err(|error| error.to_string())?;
+        let place = builtin::all().iter().position(|other| other.name == name);
+        let drawn = || Arc::new(OpenMap::new(name.to_owned(), map.grid(), Some(map)));
+        let shelf = place.and_then(|place| self.builtin.get(place));
+        Ok(shelf.map_or_else(drawn, |shelf| shelf.get_or_init(drawn).clone()))
+    }
+
+    /// An uploaded or kept map.
+    pub(crate) fn kept(&self, hash: &str) -> Option<Arc<OpenMap>> {
+        let mut maps = self.lock().clone().into_iter();
+        maps.find(|map| map.hash.as_deref() == Some(hash))
+    }
+
+    /// Keeps a map under the hash of its content; the oldest are forgotten where there are too
+    /// many cells.
+    ///
+    /// # Errors
+    /// More cells than a map may have.
+    pub(crate) fn keep(&self, name: &str, grid: OccupancyGrid) -> Result<Arc<OpenMap>, String> {
+        let n_cells = grid.frame().n_cells();
+        let max_cells = self.limits.max_cells;
+        if n_cells > max_cells {
+            return Err(format!(
+                "{name}: {n_cells} cells, at most {max_cells} here; hint: coarser cells or a part of the map, or start the studio with --max-cells"
+            ));
+        }
+        let map = Arc::new(OpenMap::new(name.to_owned(), grid, None));
+        let mut kept = self.lock();
+        kept.retain(|other| other.hash != map.hash);
+        kept.push_back(map.clone());
+        let n_kept = |kept: &VecDeque<Arc<OpenMap>>| -> usize {
+            kept.iter().map(|map| map.grid.frame().n_cells()).sum()
+        };
+        while n_kept(&kept) > self.limits.max_kept_cells && kept.len() > 1 {
+            kept.pop_front();
+        }
+        Ok(map)
+    }
+
+    fn lock(&self) -> MutexGuard<'_, VecDeque<Arc<OpenMap>>> {
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grid(rows: &[&str]) -> OccupancyGrid {
+        OccupancyGrid::from_rows(rows, 1.0).unwrap()
+    }
+
+    #[test]
+    fn maps_are_found_by_name_and_by_content() {
+        let shelf = MapShelf::new(Limits::default());
+        let by_name = |name: &str| shelf.open(&MapChoice::Builtin(name.to_owned()));
+        assert!(Arc::ptr_eq(
+            &by_name("aco20").unwrap(),
+            &by_name("aco20").unwrap()
+        ));
+        assert!(by_name("../etc/passwd").unwrap_err().contains("aco20"));
+        let kept = shelf.keep("a.png", grid(&["..", ".#"])).unwrap();
+        let hash = kept.hash.clone().unwrap();
+        assert!(Arc::ptr_eq(
+            &shelf.open(&MapChoice::Hash(hash)).unwrap(),
+            &kept
+        ));
+        assert!(shelf.open(&MapChoice::Hash("0".to_owned())).is_err());
+    }
+
+    #[test]
+    fn the_oldest_are_forgotten_and_too_large_ones_refused() {
+        let limits = Limits {
+            max_cells: 4,
+            max_kept_cells: 8,
+            ..Limits::default()
+        };
+        let shelf = MapShelf::new(limits);
+        let rows = [["..", ".#"], ["..", "#."], [".#", ".."]];
+        let hashes = rows.map(|rows| shelf.keep("m", grid(&rows)).unwrap().hash.clone().unwrap());
+        let is_kept = hashes.each_ref().map(|hash| shelf.kept(hash).is_some());
+        assert_eq!(is_kept, [false, true, true]);
+        assert!(
+            shelf
+                .keep("m", grid(&["...", "..."]))
+                .unwrap_err()
+                .contains("at most 4")
+        );
+    }
+}

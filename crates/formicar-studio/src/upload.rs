@@ -1,0 +1,145 @@
+//! Uploaded files to a map.
+
+use axum::body::Bytes;
+use formicar::map::OccupancyGrid;
+use formicar::map::format::{GreyImage, ReadOptions, RosMapDescription, map_from_bytes};
+use std::path::Path;
+
+/// An uploaded file.
+pub(crate) struct Upload {
+    pub(crate) name: String,
+    pub(crate) bytes: Bytes,
+}
+
+impl Upload {
+    fn has_extension(&self, extensions: &[&str]) -> bool {
+        let extension = Path::new(&self.name).extension();
+        let extension = extension.unwrap_or_default().to_ascii_lowercase();
+        extensions.iter().any(|&known| extension == known)
+    }
+}
+
+/// The map in some files: a ROS YAML beside its image, or one file that stands alone. Its name
+/// with it.
+///
+/// # Errors
+/// Files of which none or several could be the map, a file that is wrong, or more cells than
+/// allowed.
+pub(crate) fn map(
+    files: &[Upload],
+    resolution_m: Option<f64>,
+    max_cells: usize,
+) -> Result<(String, OccupancyGrid), String> {
+    let yaml = files
+        .iter()
+        .find(|file| file.has_extension(&["yaml", "yml"]));
+    let (file, grid) = match (yaml, files) {
+        (Some(yaml), _) => (yaml, ros(yaml, files, max_cells)?),
+        (None, [file]) => (file, alone(file, resolution_m, max_cells)?),
+        (None, []) => return Err("no file came; hint: drop a map on the page".to_owned()),
+        (None, _) => {
+            let n = files.len();
+            return Err(format!(
+                "{n} files without a .yaml; hint: a ROS map's .yaml and image together, or one file"
+            ));
+        }
+    };
+    Ok((file.name.clone(), grid))
+}
+
+fn ros(yaml: &Upload, files: &[Upload], max_cells: usize) -> Result<OccupancyGrid, String> {
+    let failed = |error: &dyn std::fmt::Display| format!("{}: {error}", yaml.name);
+    let text = std::str::from_utf8(&yaml.bytes).map_err(|error| failed(&error))?;
+    let description = RosMapDescription::from_yaml(text).map_err(|error| failed(&error))?;
+    let named = Path::new(&description.image)
+        .file_name()
+        .unwrap_or_default();
+    let image = files.iter().find(|file| named == file.name.as_str());
+    let image = image.ok_or_else(|| {
+        let named = named.to_string_lossy();
+        failed(&format!(
+            "its image {named} did not come; hint: drop both files together"
+        ))
+    })?;
+    check_png(image, max_cells)?;
+    let pixels = GreyImage::from_bytes(&image.bytes).map_err(|e| format!("{}: {e}", image.name))?;
+    description.to_grid(&pixels).map_err(|error| failed(&error))
+}
+
+fn alone(
+    file: &Upload,
+    resolution_m: Option<f64>,
+    max_cells: usize,
+) -> Result<OccupancyGrid, String> {
+    check_png(file, max_cells)?;
+    let options = ReadOptions { resolution_m };
+    map_from_bytes(Path::new(&file.name), &file.bytes, &options).map_err(|e| e.to_string())
+}
+
+/// Refuses an image that is small as a file and large as a map before it is unpacked.
+fn check_png(file: &Upload, max_cells: usize) -> Result<(), String> {
+    let number = |at: usize| {
+        let bytes = file.bytes.get(at..at + 4)?;
+        Some(u32::from_be_bytes(bytes.try_into().ok()?) as usize)
+    };
+    // The first chunk of a PNG begins with width and height.
+    let size = file
+        .bytes
+        .starts_with(b"\x89PNG")
+        .then(|| number(16).zip(number(20)));
+    match size.flatten() {
+        Some((n_cols, n_rows)) if n_cols.saturating_mul(n_rows) > max_cells => Err(format!(
+            "{}: {n_cols} x {n_rows} pixels, at most {max_cells} cells here",
+            file.name
+        )),
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use formicar::map::format::ros_png;
+
+    const YAML: &str = "image: maps/yard.png\nresolution: 0.5\norigin: [1, 2, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
+
+    fn file(name: &str, bytes: impl Into<Bytes>) -> Upload {
+        Upload {
+            name: name.to_owned(),
+            bytes: bytes.into(),
+        }
+    }
+
+    fn yard() -> Vec<u8> {
+        ros_png(&OccupancyGrid::from_rows(&["..#", "..."], 0.5).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn a_ros_map_comes_as_two_files() {
+        let both = [file("yard.png", yard()), file("yard.yaml", YAML)];
+        let (name, grid) = map(&both, None, 100).unwrap();
+        assert_eq!(
+            (name.as_str(), grid.frame().resolution_m()),
+            ("yard.yaml", 0.5)
+        );
+        assert_eq!(grid.values(), [0, 0, 0, 0, 0, 100]);
+        let error = map(&both[1..], None, 100).unwrap_err();
+        assert!(error.contains("yard.png"), "{error}");
+    }
+
+    #[test]
+    fn images_need_a_resolution_and_must_not_be_too_large() {
+        let image = [file("yard.png", yard())];
+        assert!(map(&image, None, 100).unwrap_err().contains("resolution"));
+        assert_eq!(map(&image, Some(0.1), 100).unwrap().1.frame().n_cols(), 3);
+        assert!(map(&image, Some(0.1), 5).unwrap_err().contains("3 x 2"));
+    }
+
+    #[test]
+    fn what_is_no_map_is_refused() {
+        assert!(map(&[], None, 100).is_err());
+        assert!(map(&[file("notes.txt", "hello")], None, 100).is_err());
+        assert!(map(&[file("a.yaml", vec![0xff, 0xfe])], None, 100).is_err());
+        assert!(map(&[file("a.map", "x"), file("b.map", "y")], None, 100).is_err());
+    }
+}

@@ -1,0 +1,21 @@
+/** Bundles `src` into `dist`, which is committed: the same sources give the same bytes. */
+
+import { cp, mkdir } from "node:fs/promises";
+import { build, context } from "esbuild";
+
+const options = {
+  entryPoints: { app: "src/main.ts" },
+  outdir: "dist",
+  bundle: true,
+  format: "esm",
+  target: "es2022",
+  charset: "utf8",
+  minify: true,
+  legalComments: "none",
+  logLevel: "info",
+};
+
+await mkdir("dist", { recursive: true });
+await cp("src/index.html", "dist/index.html");
+if (process.argv.includes("--watch")) await (await context(options)).watch();
+else await build(options);

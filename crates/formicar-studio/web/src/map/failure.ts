@@ -1,0 +1,53 @@
+/** Why there is no path, drawn: cells that collide, and the gap that could not be passed. */
+
+import { fixed } from "../format";
+import type { Answer } from "../protocol";
+import type { MapState } from "../store";
+import { ring } from "./marks";
+import type { Sheet } from "./sheet";
+
+export function drawFailure(sheet: Sheet, map: MapState, answer: Answer): void {
+  const { explanation } = answer;
+  if (!explanation) return;
+  const { collision, gap } = explanation;
+  if (collision) drawCollision(sheet, map, collision.cells);
+  if (!gap) return;
+  drawGap(sheet, gap.x, gap.y, gap.gap_m);
+  ring(sheet, gap.x, gap.y, `gap ${fixed(gap.gap_m, 2)} m, vehicle ${fixed(gap.vehicle_width_m, 2)} m`);
+}
+
+/** The reason in words; null where there is a path. */
+export function reasonOf(answer: Answer): string | null {
+  if (answer.path) return null;
+  if (answer.status === "cancelled") return null;
+  const { disconnected } = answer.explanation ?? {};
+  const reason = answer.reason ?? answer.code;
+  if (!disconnected) return reason;
+  const { disc_radius_m, n_cells_at_start, n_cells_at_goal } = disconnected;
+  const measures =
+    `start and goal lie apart for a disc of ${fixed(disc_radius_m, 2)} m: ` +
+    `${n_cells_at_start} cells about the start, ${n_cells_at_goal} about the goal`;
+  return reason.includes("disc") ? reason : `${reason}; ${measures}`;
+}
+
+function drawCollision(sheet: Sheet, map: MapState, cells: readonly [number, number][]): void {
+  const ctx = sheet.inCells(map);
+  const area = new Path2D();
+  for (const [col, row] of cells) area.rect(col, row, 1, 1);
+  ctx.fillStyle = sheet.colors.limit;
+  sheet.faint(0.7, () => ctx.fill(area));
+  // Cells too small to be seen are framed.
+  sheet.pen(sheet.colors.limit, 1.2);
+  ctx.stroke(area);
+}
+
+/** The widest disc that fits the gap. */
+function drawGap(sheet: Sheet, x: number, y: number, gapM: number): void {
+  const ctx = sheet.inWorld();
+  ctx.beginPath();
+  ctx.arc(x, y, gapM / 2, 0, 2 * Math.PI);
+  ctx.fillStyle = sheet.colors.limit;
+  sheet.faint(0.35, () => ctx.fill());
+  sheet.pen(sheet.colors.limit, 1);
+  ctx.stroke();
+}

@@ -1,0 +1,323 @@
+/** The map: what is drawn of a slot, layer by layer, and what hands do to it. */
+
+import "./map.css";
+
+import type { Actions } from "../actions";
+import { h, setText } from "../dom";
+import { fixed } from "../format";
+import type { Slot } from "../protocol";
+import { stats } from "../stats";
+import { stepsOf, type Step } from "../steps";
+import type { MapState, PlanState, SlotState, State, Store } from "../store";
+import { onThemeChange } from "../theme";
+import { pointAt, poseOf } from "../trace";
+import { drawBrush } from "./brush";
+import { cameraOf, View } from "./camera";
+import { drawCar } from "./car";
+import { drawEnds } from "./ends";
+import { drawFailure, reasonOf } from "./failure";
+import { Gestures } from "./gestures";
+import { Ground } from "./ground";
+import { Handles } from "./handles";
+import { Hands } from "./hands";
+import { mapKeys, pageKeys } from "./keys";
+import { keepOff, label, ring, scaleBar } from "./marks";
+import { palette } from "./palette";
+import { drawPath, drawSwept } from "./path";
+import { clearanceAt, type PathShape, poseAt, shapeOfAnswer, shapeOfFrame } from "./path_shape";
+import { Pheromone } from "./pheromone";
+import { type Moment, momentOf } from "./playhead";
+import { drawDrivers, drawNewest, Expanded } from "./race";
+import { Sheet } from "./sheet";
+import { drawStageCells, drawStageWays, isTold } from "./stages";
+import { drawGeneration, drawTraffic } from "./traffic";
+
+const KEYS = [
+  "map",
+  "vehicle",
+  "request",
+  "slots",
+  "shown",
+  "tool",
+  "brushM",
+  "frame",
+  "frameShare",
+  "step",
+  "hoverM",
+  "driveS",
+  "layers",
+] as const;
+const MAX_DPR = 2;
+const MAX_STEP_MS = 100;
+const LABEL =
+  "Map. Arrow keys pan, plus and minus zoom, F fits; M moves, P paints, E erases; tab goes to start and goal.";
+
+/** All that a picture of a moment is made from. */
+interface Scene {
+  state: Readonly<State>;
+  map: MapState;
+  side: SlotState;
+  plan: PlanState | null;
+  moment: Moment;
+  step: Step | null;
+  shape: PathShape | null;
+}
+
+export class MapView {
+  private readonly element: HTMLElement;
+  private readonly note = h("p", { class: "map-note", hidden: true });
+  private readonly readout = h("p", { class: "map-readout", "aria-hidden": true });
+  private readonly view: View;
+  private readonly base: Sheet;
+  private readonly search: Sheet;
+  private readonly over: Sheet;
+  private readonly ground = new Ground();
+  private readonly pheromone = new Pheromone();
+  private readonly expanded: Expanded;
+  private readonly hands: Hands;
+  private readonly handles: Handles;
+  private baseKey: unknown[] = [];
+  private fitted: Int8Array | null = null;
+  private isScheduled = false;
+  /** How long ants that walk over cells have been walking, seconds, and when that was counted. */
+  private walkedS = 0;
+  private walkedMs = 0;
+
+  constructor(
+    host: HTMLElement,
+    private readonly store: Store,
+    actions: Actions,
+    private readonly slot: Slot,
+  ) {
+    this.element = h("div", { class: "map-view", tabindex: 0, role: "group", "aria-label": LABEL });
+    this.element.dataset.slot = slot;
+    this.view = new View(cameraOf(store), 1, 1);
+    const sheet = () => {
+      const canvas = h("canvas", { "aria-hidden": true });
+      this.element.append(canvas);
+      return new Sheet(canvas, this.view, palette());
+    };
+    [this.base, this.search, this.over] = [sheet(), sheet(), sheet()];
+    this.expanded = new Expanded(this.search);
+    const schedule = () => this.schedule();
+    this.hands = new Hands(store, actions, slot, this.view, () => this.shape(), schedule);
+    this.handles = new Handles(this.element, this.view, actions, () => store.state, slot);
+    this.element.append(this.note, this.readout);
+    host.append(this.element);
+    new Gestures(this.element, this.view, this.hands);
+    mapKeys(this.element, this.view, () => this.fit());
+    if (slot === "a") pageKeys(store, actions);
+    this.element.addEventListener("pointermove", schedule);
+    this.view.camera.onChange(schedule);
+    onThemeChange(() => this.recolor());
+    new ResizeObserver(() => this.resize()).observe(this.element);
+    this.resize();
+    store.watch(KEYS, () => this.draw());
+  }
+
+  /** Shows the whole map. */
+  fit(): void {
+    const { map } = this.store.state;
+    if (map !== null) this.view.camera.fit(map, this.view.widthPx, this.view.heightPx);
+  }
+
+  private resize(): void {
+    const { width, height } = this.element.getBoundingClientRect();
+    if (width < 1 || height < 1) return;
+    [this.view.widthPx, this.view.heightPx] = [width, height];
+    for (const sheet of this.sheets) sheet.resize(Math.min(devicePixelRatio, MAX_DPR));
+    // What was whole stays whole.
+    if (this.view.camera.isFitted) this.fit();
+    // Drawn at once: a resized canvas is blank.
+    this.baseKey = [];
+    this.draw();
+  }
+
+  private recolor(): void {
+    for (const sheet of this.sheets) sheet.colors = palette();
+    this.schedule();
+  }
+
+  private get sheets(): Sheet[] {
+    return [this.base, this.search, this.over];
+  }
+
+  private schedule(): void {
+    if (this.isScheduled) return;
+    this.isScheduled = true;
+    requestAnimationFrame(() => {
+      this.isScheduled = false;
+      this.draw();
+    });
+  }
+
+  private shape(): PathShape | null {
+    const scene = this.scene();
+    return scene?.shape ?? null;
+  }
+
+  private scene(): Scene | null {
+    const { state } = this.store;
+    const { map } = state;
+    const side = state.slots[this.slot];
+    if (map === null || side === null) return null;
+    const { plan } = side;
+    const moment = momentOf(state, this.slot);
+    const answer = plan?.end?.answer ?? null;
+    const ended = moment.nBegun === null && answer !== null ? shapeOfAnswer(answer) : null;
+    const shape = ended ?? (moment.path === null ? null : shapeOfFrame(moment.path));
+    const steps = state.step === null ? [] : stepsOf(plan, map);
+    const step = steps[Math.min(state.step ?? 0, steps.length - 1)] ?? null;
+    return { state, map, side, plan, moment, step, shape };
+  }
+
+  private draw(): void {
+    const started = performance.now();
+    const scene = this.scene();
+    if (scene === null || this.view.widthPx <= 1) return;
+    const isUnderWay = scene.state.isPlaying || (scene.plan !== null && scene.plan.end === null);
+    if (isUnderWay) this.walkedS += Math.min(started - this.walkedMs, MAX_STEP_MS) / 1000;
+    this.walkedMs = started;
+    if (this.fitted !== scene.map.values) {
+      this.fitted = scene.map.values;
+      if (this.slot === "a") this.fit();
+    }
+    this.drawBase(scene);
+    this.drawSearch(scene);
+    this.drawOver(scene);
+    this.write(scene);
+    const { plan } = scene;
+    if (plan !== null && (scene.shape !== null || plan.end !== null)) stats.pathDrawn(plan.plan);
+    stats.frameDrawn(performance.now() - started, isUnderWay || scene.state.driveS !== null);
+  }
+
+  /** Ground, pheromone and cells of the telling: drawn only when they have changed. */
+  private drawBase({ state, map, plan, moment, step }: Scene): void {
+    const { base } = this;
+    const { camera } = this.view;
+    const bytes = state.layers.pheromone && step === null ? moment.iteration?.pheromone : undefined;
+    const stages = plan?.end?.stages;
+    const key: unknown[] = [map.values, map.version, camera.x, camera.y, camera.pxPerM, base.colors, bytes];
+    key.push(step?.name, step === null ? null : stages);
+    if (key.length === this.baseKey.length && key.every((part, i) => part === this.baseKey[i])) return;
+    this.baseKey = key;
+    const ctx = base.inPixels();
+    ctx.fillStyle = base.colors.offMap;
+    ctx.fillRect(0, 0, this.view.widthPx, this.view.heightPx);
+    this.ground.draw(base, map);
+    if (bytes !== undefined) this.pheromone.draw(base, map, bytes);
+    if (step !== null && stages !== undefined) drawStageCells(base, map, stages, step.name);
+  }
+
+  private drawSearch({ state, plan, moment, step }: Scene): void {
+    const isShown = plan !== null && moment.nBegun !== null && state.layers.ants && step === null;
+    if (isShown) this.expanded.draw(plan.frames, moment.nBegun ?? 0);
+    else this.expanded.clear();
+  }
+
+  private drawOver(scene: Scene): void {
+    const { over } = this;
+    const { state, map, plan, step, side } = scene;
+    over.clear();
+    this.keepRoom(scene);
+    this.drawWays(scene);
+    if (step !== null && plan?.end) drawStageWays(over, map, plan.end.stages, step.name);
+    if (step === null || isTold("arcs", step.name)) this.drawShape(scene);
+    drawEnds(over, state.request, state.vehicle, this.hands.held);
+    const answer = plan?.end?.answer;
+    const isEnd = scene.moment.nBegun === null;
+    if (answer && isEnd && !answer.path && step === null) drawFailure(over, map, answer);
+    if (side.driven !== null && state.driveS !== null) this.drawDrive(scene);
+    else if (isEnd) this.drawTightest(scene);
+    if (state.shown === this.slot) this.drawHover(scene);
+    if (state.tool !== "move" && this.hands.pointer) drawBrush(over, this.hands.pointer, state.brushM);
+    scaleBar(over);
+  }
+
+  /** Words keep off what they stand beside. */
+  private keepRoom({ state, plan }: Scene): void {
+    const { start, goal } = state.request;
+    for (const [x, y] of [start, goal]) keepOff(this.over, this.view.toPx(x, y), 7);
+    const tightest = plan?.end?.tightest;
+    if (tightest && state.layers.clearance) keepOff(this.over, this.view.toPx(tightest.x, tightest.y), 13);
+  }
+
+  /** Ants, and what else the run shows on its way. */
+  private drawWays({ state, map, plan, moment, step }: Scene): void {
+    if (!state.layers.ants || step !== null || moment.nBegun === null) return;
+    const { over } = this;
+    if (moment.iteration) drawTraffic(over, map, moment.iteration, this.walkedS);
+    if (moment.generation) drawGeneration(over, map, moment.generation);
+    drawNewest(over, plan?.frames[moment.nBegun - 1]);
+    if (moment.drive === null) return;
+    drawDrivers(over, moment.drive, moment.driveBefore, moment.isDriveLast ? moment.share : 1);
+  }
+
+  private drawShape({ state, shape, step }: Scene): void {
+    if (shape === null) return;
+    const { over } = this;
+    const { vehicle, layers } = state;
+    const isSwept = step === null ? layers.swept : step.name === "judged";
+    if (isSwept && vehicle) drawSwept(over, shape, vehicle);
+    drawPath(over, shape);
+  }
+
+  private drawTightest({ state, plan, step }: Scene): void {
+    const tightest = state.layers.clearance ? plan?.end?.tightest : null;
+    if (!tightest || (step !== null && step.name !== "judged")) return;
+    if (!this.view.shows(tightest.x, tightest.y)) return;
+    ring(this.over, tightest.x, tightest.y, `${fixed(tightest.clearance_m, 2)} m`);
+  }
+
+  private drawDrive({ state, side }: Scene): void {
+    const { driven } = side;
+    const { vehicle, driveS } = state;
+    if (driven === null || driveS === null || vehicle === null) return;
+    const { over } = this;
+    const ctx = over.inWorld();
+    ctx.beginPath();
+    for (const point of driven.trace) {
+      if (point.t_s > driveS) break;
+      ctx.lineTo(point.pose.x, point.pose.y);
+    }
+    over.pen(over.colors.ink, 1.6, [2, 4]);
+    ctx.stroke();
+    const point = pointAt(driven, driveS);
+    if (point === null) return;
+    const isAtEnd = driveS >= (driven.trace.at(-1)?.t_s ?? 0);
+    const hasHit = !driven.tracked && isAtEnd;
+    drawCar(over, vehicle, poseOf(point), {
+      color: hasHit ? over.colors.limit : over.colors.forward,
+      fill: 0.5,
+      wheels: [point.left_wheel_rad, point.right_wheel_rad],
+    });
+    if (driven.contact && driveS >= driven.contact.t_s) {
+      ring(over, driven.contact.x, driven.contact.y, "contact");
+    }
+  }
+
+  /** The place of the path that is pointed at. */
+  private drawHover({ state, shape }: Scene): void {
+    const { hoverM, vehicle } = state;
+    if (hoverM === null || shape === null || vehicle === null) return;
+    const { over } = this;
+    const pose = poseAt(shape, hoverM);
+    drawCar(over, vehicle, pose, { color: over.colors.ink, fill: 0 });
+    const clearance = clearanceAt(shape, hoverM);
+    const words = clearance === null ? "" : `, ${fixed(clearance, 2)} m clear`;
+    const at = this.view.toPx(pose[0], pose[1]);
+    label(over, `at ${fixed(hoverM, 1)} m${words}`, [at[0], at[1] - 22], over.colors.ink, 14);
+  }
+
+  /** Words over the map, and where the buttons for keyboards are. */
+  private write({ state, plan, moment }: Scene): void {
+    this.handles.place();
+    this.element.style.cursor = this.hands.cursor;
+    setText(this.readout, this.hands.readout);
+    const answer = plan?.end?.answer;
+    const reason = answer && moment.nBegun === null && state.step === null ? reasonOf(answer) : null;
+    // While something is held, words would flicker under the hand.
+    this.note.hidden = reason === null || this.hands.isBusy;
+    setText(this.note, reason ?? "");
+  }
+}
