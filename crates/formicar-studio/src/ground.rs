@@ -27,16 +27,21 @@ pub(crate) struct Ground {
 }
 
 impl Ground {
-    /// A map as it was opened, with the vehicle that it is made for.
-    pub(crate) fn new(opened: Arc<OpenMap>) -> Self {
-        let name = opened.builtin.map_or(DEFAULT_VEHICLE, |map| map.vehicle);
-        let vehicle = Vehicle::preset(name).unwrap_or_else(|_| Vehicle::warehouse_amr());
+    /// A map as it was opened, with the vehicle that it is made for; one made for none is for the
+    /// vehicle that was there before.
+    pub(crate) fn new(opened: Arc<OpenMap>, before: Option<Self>) -> Self {
+        let preset = |name: &str| (Vehicle::preset(name).ok(), name.to_owned());
+        let (vehicle, vehicle_name) = match (opened.builtin, before) {
+            (Some(map), _) => preset(map.vehicle),
+            (None, Some(before)) => (Some(before.vehicle), before.vehicle_name),
+            (None, None) => preset(DEFAULT_VEHICLE),
+        };
         Self {
             grid: opened.grid.clone(),
             obstacles: opened.obstacles.clone(),
             is_edited: false,
-            vehicle,
-            vehicle_name: name.to_owned(),
+            vehicle: vehicle.unwrap_or_else(Vehicle::warehouse_amr),
+            vehicle_name,
             opened,
         }
     }

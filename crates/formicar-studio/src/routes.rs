@@ -1,7 +1,8 @@
 //! What can be asked for by address.
 
+use crate::catalog::Catalog;
 use crate::upload::{self, Upload};
-use crate::{Studio, catalog, gate, visit};
+use crate::{Studio, gate, visit};
 use axum::extract::multipart::{Multipart, MultipartError};
 use axum::extract::ws::WebSocketUpgrade;
 use axum::extract::{DefaultBodyLimit, Path, State};
@@ -12,7 +13,8 @@ use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use axum::{Router, body::Bytes};
 use formicar::map::format::{RosMapDescription, ros_png};
-use serde_json::{Value as Json, json};
+use serde::Serialize;
+use serde_json::json;
 use std::sync::Arc;
 
 /// The page, as `web/` builds it.
@@ -56,13 +58,14 @@ pub(crate) fn router(studio: Arc<Studio>) -> Router {
         .with_state(studio)
 }
 
-fn json_response(status: StatusCode, json: &Json) -> Response {
+fn json_response(status: StatusCode, document: &impl Serialize) -> Response {
     let kind = [(CONTENT_TYPE, "application/json")];
-    (status, kind, json.to_string()).into_response()
+    let text = serde_json::to_string(document).expect("documents have text keys");
+    (status, kind, text).into_response()
 }
 
 async fn get_catalog(State(studio): State<Arc<Studio>>) -> Response {
-    json_response(StatusCode::OK, &catalog::catalog(&studio.options.limits))
+    json_response(StatusCode::OK, &Catalog::new(&studio.options.limits))
 }
 
 async fn get_socket(State(studio): State<Arc<Studio>>, upgrade: WebSocketUpgrade) -> Response {

@@ -101,7 +101,8 @@ impl Session {
     fn obey(&mut self, order: ClientMessage) -> Result<(), Refusal> {
         match order {
             ClientMessage::OpenMap { map } => {
-                let ground = Ground::new(self.studio.maps.open(&map)?);
+                let opened = self.studio.maps.open(&map)?;
+                let ground = Ground::new(opened, self.ground.take());
                 self.outbox.put(ground.map_message());
                 self.outbox.put(ground.vehicle_message());
                 self.ground = Some(ground);

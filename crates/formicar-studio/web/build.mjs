@@ -1,7 +1,10 @@
 /** Bundles `src` into `dist`, which is committed: the same sources give the same bytes. */
 
-import { cp, mkdir } from "node:fs/promises";
+import { cp, mkdir, readFile } from "node:fs/promises";
 import { build, context } from "esbuild";
+
+/** What is bundled from others, with their licenses. */
+const license = await readFile("node_modules/uplot/LICENSE", "utf8");
 
 const options = {
   entryPoints: { app: "src/main.ts" },
@@ -12,6 +15,7 @@ const options = {
   charset: "utf8",
   minify: true,
   legalComments: "none",
+  banner: { js: `/* Contains uPlot (https://github.com/leeoniya/uPlot):\n\n${license.trim()}\n*/` },
   logLevel: "info",
 };
 

@@ -1,10 +1,12 @@
 /** What the user can do, and what follows from what the server says. */
 
 import { rounded } from "./cells";
+import { vehicleChoice } from "./choices";
 import type { Connection } from "./connection";
 import { Driving } from "./driving";
-import { firstRequest } from "./first_request";
-import { decode, defaultConfig, encode, type Scene } from "./link";
+import { Keeping } from "./keeping";
+import { defaultConfig, encode, type Scene } from "./link";
+import { Opening } from "./opening";
 import { Planning, type Wish } from "./planning";
 import type {
   AnswerMessage,
@@ -12,7 +14,6 @@ import type {
   Config,
   DriveLaw,
   MapChoice,
-  MapMessage,
   Pose,
   Request,
   ServerMessage,
@@ -23,38 +24,25 @@ import type {
 } from "./protocol";
 import { saveFile } from "./save";
 import { expose, stats } from "./stats";
-import type { MapState, Store } from "./store";
+import type { Store } from "./store";
 import { Strokes } from "./strokes";
 import { Past } from "./undo";
 import { pageUrl, withToken } from "./urls";
 
-const FIRST_MAP: MapChoice = { builtin: "neighborhood" };
-const FIRST_PLANNER = "formicar";
-/** Planners that drive, and what walks over cells where a point is to be planned for. */
-const DRIVING_PLANNERS = ["formicar", "hybrid-astar"];
-const WALKING_PLANNER = "ant-system";
-
-/** The brush begins at this share of the map's width, and not below a cell. */
-const BRUSH_SHARE = 0.012;
-
-/** What is to be opened: a scene whole, or a map with its own vehicle and request. */
-type Opening = { map: MapChoice } & Partial<Scene>;
 type ErrorMessage = Extract<ServerMessage, { type: "error" }>;
+
+const SLOTS = ["a", "b"] as const;
 
 export class Actions {
   private readonly past: Past;
   private readonly planning: Planning;
   private readonly driving: Driving;
   private readonly strokes: Strokes;
-  /** What is being opened; what belongs to it is put in place when the map comes. */
-  private opening: Opening | null = null;
-  private choice: MapChoice = FIRST_MAP;
+  private readonly opening: Opening;
+  private readonly keeping: Keeping;
+  /** The request before an end was taken hold of. */
   private requestBefore: Request | null = null;
-  /** What a point cannot be planned with, kept for the next car. */
-  private drivingConfig: Config | null = null;
   private isVehicleAwaited = false;
-  private kept: { version: number; hash: string } | null = null;
-  private keepers: { done: (hash: string) => void; failed: (why: Error) => void }[] = [];
 
   constructor(
     private readonly store: Store,
@@ -64,6 +52,8 @@ export class Actions {
     this.planning = new Planning(store, connection, (message) => this.answered(message));
     this.driving = new Driving(store, connection);
     this.strokes = new Strokes(store, connection);
+    this.opening = new Opening(store, connection, this.strokes);
+    this.keeping = new Keeping(connection);
     expose(store);
   }
 
@@ -78,7 +68,7 @@ export class Actions {
       case "dropped":
         break;
       case "map":
-        this.mapCame(message, payload);
+        if (this.opening.came(message, payload)) this.mapOpened();
         break;
       case "vehicle":
         this.vehicleCame(message);
@@ -104,7 +94,7 @@ export class Actions {
         saveFile(this.fileStem(message.slot), message.format, payload);
         break;
       case "kept":
-        this.keptCame(message.hash);
+        this.keeping.came(message.hash);
         break;
       case "error":
         this.errorCame(message);
@@ -115,35 +105,32 @@ export class Actions {
   /** The line to the server stands or broke; when it stands again, all is opened there anew. */
   connected(isOpen: boolean): void {
     this.store.set({ isConnected: isOpen });
-    for (const slot of ["a", "b"] as const) this.planning.forget(slot);
-    if (!isOpen) {
-      this.refuseKeepers("the line to the server broke");
-      return;
-    }
+    for (const slot of SLOTS) this.planning.forget(slot);
     this.isVehicleAwaited = false;
-    if (this.opening !== null) this.open(this.opening);
-    else if (this.store.state.map !== null) this.reopen(this.store.state.map);
+    if (!isOpen) this.keeping.refuse("the line to the server broke");
+    else if (this.opening.reopen()) this.planAll("settle", performance.now());
   }
 
   /** Fetches the catalog and opens the scene of the link, or the first one. */
   async start(): Promise<void> {
-    addEventListener("hashchange", () => void this.openLink(location.hash));
+    addEventListener("hashchange", () => void this.openLink());
     try {
       const response = await fetch(withToken("api/catalog"));
       if (!response.ok) throw new Error(`${response.status} ${response.statusText}`);
-      this.store.set({ catalog: (await response.json()) as Catalog });
+      this.catalogCame((await response.json()) as Catalog);
     } catch (error) {
       this.store.set({ error: `catalog: ${reason(error)}; hint: reload the page` });
       return;
     }
-    if (!(await this.openLink(location.hash))) this.open({ map: FIRST_MAP });
+    if (!(await this.openLink())) this.opening.openFirst();
   }
 
   // --- Map and vehicle -----------------------------------------------------------------------
 
   /** Opens a map with its vehicle and first request. */
   openMap(choice: MapChoice): void {
-    this.open({ map: choice });
+    this.leave();
+    this.opening.open({ map: choice });
   }
 
   chooseRequest(id: string): void {
@@ -262,7 +249,7 @@ export class Actions {
   }
 
   cancel(): void {
-    for (const slot of ["a", "b"] as const) this.planning.cancel(slot);
+    for (const slot of SLOTS) this.planning.cancel(slot);
   }
 
   /** Puts another planner beside the first, or takes it away. */
@@ -288,7 +275,7 @@ export class Actions {
   }
 
   stopDriving(): void {
-    for (const slot of ["a", "b"] as const) this.driving.stop(slot);
+    for (const slot of SLOTS) this.driving.stop(slot);
   }
 
   // --- Taking away ---------------------------------------------------------------------------
@@ -300,10 +287,11 @@ export class Actions {
   /** An address that restores all that is shown; it also becomes the page's own. */
   async link(): Promise<string> {
     const { catalog, map, vehicle, request, slots, shown } = this.store.state;
-    if (catalog === null || map === null || vehicle === null) throw new Error("there is no map yet");
+    if (catalog === null || map === null || vehicle === null)
+      throw new Error("there is no map yet");
     const sides = slots.b === null ? [slots.a] : [slots.a, slots.b];
     const scene: Scene = {
-      map: map.isEdited ? { hash: await this.keepMap(map) } : this.choice,
+      map: map.isEdited ? { hash: await this.keeping.keep(map) } : this.opening.choice,
       vehicle: vehicleChoice(vehicle),
       request,
       slots: sides.map(({ config, seed }) => ({ config, seed })),
@@ -314,88 +302,30 @@ export class Actions {
     return url;
   }
 
-  // --- Opening -------------------------------------------------------------------------------
+  // --- What follows ----------------------------------------------------------------------------
 
-  private async openLink(hash: string): Promise<boolean> {
-    const { catalog } = this.store.state;
-    const scene = catalog === null ? null : await decode(hash, catalog);
-    if (scene === null) return false;
-    this.open(scene);
-    return true;
+  private catalogCame(catalog: Catalog): void {
+    const { slots } = this.store.state;
+    const a = { ...slots.a, config: defaultConfig(catalog, slots.a.config.planner) };
+    this.store.set({ catalog, slots: { ...slots, a } });
   }
 
-  private open(opening: Opening): void {
-    this.opening = opening;
+  private async openLink(): Promise<boolean> {
+    const isScene = await this.opening.openLink(location.hash);
+    if (isScene) this.leave();
+    return isScene;
+  }
+
+  /** Ends what goes on on the map that is left. */
+  private leave(): void {
     this.stopDriving();
-    for (const slot of ["a", "b"] as const) this.planning.cancel(slot);
-    this.connection.send({ type: "open_map", map: opening.map });
+    this.cancel();
   }
 
-  /** The server has forgotten everything; the page has not. */
-  private reopen(map: MapState): void {
-    const { vehicle, request, slots, shown } = this.store.state;
-    this.connection.send({ type: "open_map", map: this.choice });
-    if (map.isEdited) this.strokes.sendAll(map);
-    if (vehicle !== null) {
-      this.connection.send({ type: "set_vehicle", vehicle: vehicleChoice(vehicle) });
-    }
-    this.store.set({ request, slots, shown });
-    this.planAll("settle", performance.now());
-  }
-
-  private mapCame(message: MapMessage, payload: Uint8Array): void {
-    const { opening } = this;
-    // After a broken line the map is here already, perhaps painted on.
-    if (opening === null && this.store.state.map !== null) return;
-    this.opening = null;
-    this.choice = opening?.map ?? FIRST_MAP;
-    this.kept = null;
+  private mapOpened(): void {
     this.past.clear();
     this.requestBefore = null;
-    const values = new Int8Array(payload.slice().buffer);
-    const map: MapState = { ...message, values, isEdited: false, version: 0 };
-    const brushM = Math.max(map.resolution_m, BRUSH_SHARE * map.resolution_m * map.n_cols);
-    this.store.set({ map, brushM, error: null });
-    this.store.set({ hoverM: null, step: null, frame: null, isPlaying: false });
-    this.placeScene(map, opening ?? { map: this.choice });
-  }
-
-  /** Puts vehicle, request and planners of a scene in place, and plans. */
-  private placeScene(map: MapState, opening: Opening): void {
-    const { slots, vehicle } = this.store.state;
-    // A built-in map comes with its vehicle; on others the one at hand is planned for.
-    const own = map.vehicle === null && vehicle !== null ? vehicleChoice(vehicle) : null;
-    const choice = opening.vehicle ?? own;
-    if (choice !== null) this.connection.send({ type: "set_vehicle", vehicle: choice });
-    const preset = choice !== null && "preset" in choice ? choice.preset : map.vehicle;
-    const isPoint = preset === "point";
-    const first = map.requests[0];
-    const request =
-      opening.request ??
-      (first ? { start: first.start, goal: first.goal } : firstRequest(map, vehicle));
-    const fresh = (side: { config: Config; seed: number }) => ({ ...side, plan: null, driven: null });
-    const [a, b] = opening.slots ?? [slots.a, slots.b];
-    const config = opening.slots ? a?.config : this.configFor(isPoint);
-    const sideA = fresh({ config: config ?? slots.a.config, seed: a?.seed ?? 0 });
-    const shown = opening.shown ?? (b ? this.store.state.shown : "a");
-    const sides = { a: sideA, b: b ? fresh({ config: b.config, seed: b.seed }) : null };
-    this.store.set({ request, slots: sides, shown, driveS: null });
     this.planAll("replay", performance.now());
-  }
-
-  /** The first slot's configuration, or one that can plan for a point. */
-  private configFor(isPoint: boolean): Config | undefined {
-    const { catalog, slots } = this.store.state;
-    if (catalog === null) return undefined;
-    const known = catalog.planners.some(({ name }) => name === slots.a.config.planner);
-    const current = known ? slots.a.config : defaultConfig(catalog, FIRST_PLANNER);
-    if (isPoint && DRIVING_PLANNERS.includes(current.planner)) {
-      this.drivingConfig = current;
-      return defaultConfig(catalog, WALKING_PLANNER);
-    }
-    const former = isPoint ? null : this.drivingConfig;
-    if (former !== null) this.drivingConfig = null;
-    return former !== null && current.planner === WALKING_PLANNER ? former : current;
   }
 
   private vehicleCame(vehicle: VehicleMessage): void {
@@ -404,8 +334,6 @@ export class Actions {
     this.isVehicleAwaited = false;
     this.planAll("settle", performance.now());
   }
-
-  // --- Planning within -----------------------------------------------------------------------
 
   private changeRequest(request: Request, manner: Wish["manner"]): void {
     const before = this.store.state.request;
@@ -416,12 +344,12 @@ export class Actions {
   }
 
   private planAll(manner: Wish["manner"], atMs: number): void {
-    for (const slot of ["a", "b"] as const) this.planSlot(slot, manner, atMs);
+    for (const slot of SLOTS) this.planSlot(slot, manner, atMs);
   }
 
   private planSlot(slot: Slot, manner: Wish["manner"], atMs: number): void {
     const { request, slots } = this.store.state;
-    if (slots[slot] === null || this.opening !== null) return;
+    if (slots[slot] === null || this.opening.isAwaited) return;
     const asked = isCalm() && manner === "replay" ? "settle" : manner;
     const onTheWay = manner === "replay" ? null : this.driving.onTheWay(slot, request);
     if (onTheWay === null) {
@@ -434,30 +362,8 @@ export class Actions {
 
   private answered(message: AnswerMessage): void {
     const plan = this.store.state.slots[message.slot]?.plan;
-    if (plan && this.driving.isOnTheWay(plan.request)) this.driving.replanned(message.slot, message);
-  }
-
-  // --- Keeping and errors --------------------------------------------------------------------
-
-  private keepMap(map: MapState): Promise<string> {
-    if (this.kept?.version === map.version) return Promise.resolve(this.kept.hash);
-    return new Promise((done, failed) => {
-      const { version } = map;
-      const keeper = (hash: string) => {
-        this.kept = { version, hash };
-        done(hash);
-      };
-      this.keepers.push({ done: keeper, failed });
-      if (!this.connection.send({ type: "keep_map" })) this.refuseKeepers("the server is not there");
-    });
-  }
-
-  private keptCame(hash: string): void {
-    this.keepers.shift()?.done(hash);
-  }
-
-  private refuseKeepers(why: string): void {
-    for (const { failed } of this.keepers.splice(0)) failed(new Error(`map not kept: ${why}`));
+    if (plan && this.driving.isOnTheWay(plan.request))
+      this.driving.replanned(message.slot, message);
   }
 
   private errorCame({ about, message, plan }: ErrorMessage): void {
@@ -465,24 +371,15 @@ export class Actions {
     if (plan !== undefined && this.planning.refused(plan, message)) return;
     this.store.set({ error: message });
     if (about === "vehicle") this.isVehicleAwaited = false;
-    if (about !== "map") return;
-    if (this.opening === null) {
-      this.refuseKeepers(message);
-      return;
-    }
-    const isFirst = JSON.stringify(this.opening.map) === JSON.stringify(FIRST_MAP);
-    this.opening = null;
-    if (this.store.state.map === null && !isFirst) this.open({ map: FIRST_MAP });
+    if (about === "drive") this.driving.failed();
+    if (about === "map" && this.opening.isAwaited) this.opening.failed();
+    else if (about === "map") this.keeping.refuse(message);
   }
 
   private fileStem(slot: Slot): string {
     const { map, slots } = this.store.state;
     return `${map?.name ?? "map"}-${slots[slot]?.config.planner ?? "plan"}`;
   }
-}
-
-function vehicleChoice(vehicle: VehicleMessage): VehicleChoice {
-  return vehicle.name === "own" ? { parameters: vehicle.parameters } : { preset: vehicle.name };
 }
 
 /** Whether nothing should move by itself. */

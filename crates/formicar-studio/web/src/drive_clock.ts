@@ -78,7 +78,8 @@ export class DriveClock {
   private tick(ms: number): void {
     const { driveS } = this.store.state;
     if (!this.isRunning || this.driven === null) return;
-    const stepS = Math.min(Math.max(0, (ms - this.lastMs) / 1000), LONGEST_STEP_S);
+    const isHeld = shownSlot(this.store.state).isHeld === true;
+    const stepS = isHeld ? 0 : Math.min(Math.max(0, (ms - this.lastMs) / 1000), LONGEST_STEP_S);
     this.lastMs = ms;
     const end = durationS(this.driven);
     const next = Math.min((driveS ?? 0) + stepS * this.rate, end);

@@ -25,19 +25,22 @@ export class Driving {
     const side = slots[slot];
     if (side === null || side.driven === null) return;
     side.driven = null;
+    side.isHeld = false;
     this.store.touch("slots");
     if (driveS !== null) this.store.set({ driveS: null });
   }
 
-  /** The request from where the vehicle is now; null where none is on its way. */
+  /** The request from where the vehicle is now, which waits for it; null where none is on its way. */
   onTheWay(slot: Slot, request: Request): Request | null {
     const { slots, driveS } = this.store.state;
-    const driven = slots[slot]?.driven;
-    if (!driven || driveS === null || driveS <= 0 || driveS >= durationS(driven)) return null;
+    const side = slots[slot];
+    const driven = side?.driven;
+    if (!driven || driveS === null || driveS >= durationS(driven)) return null;
     const point = pointAt(driven, driveS);
     if (point === null) return null;
     const start = poseOf(point);
     this.departures.set(start, driveS);
+    side.isHeld = true;
     return { ...request, start };
   }
 
@@ -49,7 +52,13 @@ export class Driving {
   /** The way from here on: driven if there is one, else the vehicle stops where it is. */
   replanned(slot: Slot, message: AnswerMessage): void {
     if (message.answer.path) this.start(slot, this.law);
-    else if (message.answer.status !== "cancelled") this.halt(slot);
+    else this.halt(slot);
+  }
+
+  /** A drive could not be made: whoever waits for one goes on. */
+  failed(): void {
+    const { a, b } = this.store.state.slots;
+    for (const side of [a, b]) if (side !== null) side.isHeld = false;
   }
 
   /** A drive came: it begins, or goes on from where the vehicle has come to meanwhile. */
@@ -61,6 +70,7 @@ export class Driving {
     const isGoingOn = departureS !== undefined && side.driven !== null && driveS !== null;
     const passedS = isGoingOn ? Math.max(0, driveS - departureS) : 0;
     side.driven = message;
+    side.isHeld = false;
     this.store.touch("slots");
     this.store.set({ driveS: Math.min(passedS, durationS(message)) });
   }
@@ -71,6 +81,7 @@ export class Driving {
     if (side === null || side.driven === null || driveS === null) return;
     const trace = side.driven.trace.slice(0, indexAt(side.driven.trace, driveS) + 1);
     side.driven = { ...side.driven, tracked: false, status: "stopped: no way on", trace };
+    side.isHeld = false;
     this.store.touch("slots");
     this.store.set({ driveS: trace.at(-1)?.t_s ?? 0 });
   }

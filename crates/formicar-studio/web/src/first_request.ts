@@ -10,7 +10,10 @@ const OCCUPIED = 100;
 const N_RADII = 60;
 const N_BEARINGS = 24;
 
-export function firstRequest(map: MapState, vehicle: VehicleMessage | null): { start: Pose; goal: Pose } {
+export function firstRequest(
+  map: MapState,
+  vehicle: VehicleMessage | null,
+): { start: Pose; goal: Pose } {
   const [fromCol, fromRow] = [0.15 * map.n_cols, 0.15 * map.n_rows];
   const [toCol, toRow] = [0.85 * map.n_cols, 0.85 * map.n_rows];
   return {

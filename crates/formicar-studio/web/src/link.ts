@@ -91,9 +91,14 @@ function isRecord(value: unknown): value is Record<string, unknown> {
   return typeof value === "object" && value !== null && !Array.isArray(value);
 }
 
-async function pipe(bytes: Uint8Array<ArrayBuffer>, how: "deflate" | "inflate"): Promise<Uint8Array> {
+async function pipe(
+  bytes: Uint8Array<ArrayBuffer>,
+  how: "deflate" | "inflate",
+): Promise<Uint8Array> {
   const through =
-    how === "deflate" ? new CompressionStream("deflate-raw") : new DecompressionStream("deflate-raw");
+    how === "deflate"
+      ? new CompressionStream("deflate-raw")
+      : new DecompressionStream("deflate-raw");
   const stream = new Blob([bytes]).stream().pipeThrough(through);
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }

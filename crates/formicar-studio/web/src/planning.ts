@@ -196,7 +196,17 @@ function refusal(plan: number, slot: Slot, side: SlotState, reason: string): Ans
     timing: { map_setup_s: 0, first_feasible_s: null, query_s: 0, total_s: 0 },
     provenance: {},
   };
-  return { type: "answer", plan, slot, answer, history: [], stages: {}, tightest: null, cli: "", toml: "" };
+  return {
+    type: "answer",
+    plan,
+    slot,
+    answer,
+    history: [],
+    stages: {},
+    tightest: null,
+    cli: "",
+    toml: "",
+  };
 }
 
 function idle(): Line {

@@ -10,6 +10,8 @@ import { durationMs } from "./pace";
 import type { IterationRecord } from "./protocol";
 import type { Frame, PlanState, State, Store } from "./store";
 
+/** What the space bar presses. */
+const PRESSED = "button, a, summary, [role=tab], input[type=checkbox], input[type=radio]";
 const SPEEDS = [0.25, 0.5, 1, 2, 4] as const;
 /** A longer pause between two looks at the clock: the page was hidden. */
 const MAX_TICK_MS = 100;
@@ -18,7 +20,12 @@ export class Playback {
   private readonly play = h("button", { type: "button", class: "player-play" });
   private readonly back = stepButton("Step back", "player-back", () => this.step(-1));
   private readonly ahead = stepButton("Step ahead", "player-ahead", () => this.step(1));
-  private readonly slider = h("input", { type: "range", min: 0, step: 1, "aria-label": "Moment of the run" });
+  private readonly slider = h("input", {
+    type: "range",
+    min: 0,
+    step: 1,
+    "aria-label": "Moment of the run",
+  });
   private readonly marks = h("div", { class: "player-marks", "aria-hidden": true });
   private readonly words = h("p", { class: "player-words" });
   private readonly speed = h(
@@ -63,7 +70,12 @@ export class Playback {
     this.isLive = false;
     if (isPlaying) this.store.set({ isPlaying: false });
     else if (this.plan?.frames.length) {
-      this.store.set({ isPlaying: true, frame: frame ?? 0, frameShare: frame === null ? 0 : this.store.state.frameShare, step: null });
+      this.store.set({
+        isPlaying: true,
+        frame: frame ?? 0,
+        frameShare: frame === null ? 0 : this.store.state.frameShare,
+        step: null,
+      });
     }
   }
 
@@ -83,7 +95,7 @@ export class Playback {
   private key(event: KeyboardEvent): void {
     const { target } = event;
     if (isTyping(target) || event.defaultPrevented || event.ctrlKey || event.metaKey) return;
-    const isPress = target instanceof HTMLElement && target.closest("button, a, summary, [role=tab]");
+    const isPress = target instanceof HTMLElement && target.closest(PRESSED);
     if (event.key === " " && !isPress) this.toggle();
     else if (event.key === ",") this.step(-1);
     else if (event.key === ".") this.step(1);
@@ -94,7 +106,8 @@ export class Playback {
   private update(state: Readonly<State>): void {
     const frames = this.plan?.frames ?? [];
     const n = frames.length;
-    for (const element of [this.play, this.back, this.ahead, this.slider]) element.disabled = n === 0;
+    for (const element of [this.play, this.back, this.ahead, this.slider])
+      element.disabled = n === 0;
     this.back.disabled ||= state.frame === 0;
     this.ahead.disabled ||= state.frame === null;
     setPlaying(this.play, state.isPlaying);
@@ -167,7 +180,11 @@ export class Playback {
 }
 
 function stepButton(label: string, name: string, onclick: () => void): HTMLButtonElement {
-  return h("button", { type: "button", class: name, "aria-label": label, title: label, onclick }, icon("chevron"));
+  return h(
+    "button",
+    { type: "button", class: name, "aria-label": label, title: label, onclick },
+    icon("chevron"),
+  );
 }
 
 function setPlaying(button: HTMLButtonElement, isPlaying: boolean): void {
@@ -185,7 +202,9 @@ function wordsOf(plan: PlanState | null, index: number | null): string {
   if (index === null) {
     const nPaths = frames.filter(({ type }) => type === "improved").length;
     if (end === null) return "Under way";
-    return nPaths > 1 ? `End of the run: ${plural(nPaths, "certified path")}, each shorter` : "End of the run";
+    return nPaths > 1
+      ? `End of the run: ${plural(nPaths, "certified path")}, each better`
+      : "End of the run";
   }
   const frame = frames[index];
   if (frame === undefined) return "Waiting for the first frame";

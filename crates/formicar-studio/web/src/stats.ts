@@ -24,12 +24,12 @@ export class Stats {
     this.dragged.set(plan, atMs);
   }
 
-  /** A path of a plan stands on the screen. */
-  pathDrawn(plan: number): void {
+  /** A plan stands on the screen: its first path, or that there is none, which is not counted. */
+  planDrawn(plan: number, hasPath: boolean): void {
     const askedMs = this.dragged.get(plan);
     if (askedMs === undefined) return;
     for (const older of [...this.dragged.keys()]) if (older <= plan) this.dragged.delete(older);
-    keep(this.dragToDrawnMs, performance.now() - askedMs);
+    if (hasPath) keep(this.dragToDrawnMs, performance.now() - askedMs);
   }
 
   /** A map was drawn, which took so long. */

@@ -32,11 +32,17 @@ export function stepsOf(plan: PlanState | null, map: MapState | null): Step[] {
         ? "There is no U-shape in which ants would get lost."
         : `${plural(n, "cell")} of dead ends are closed: no ant gets lost in a U-shape.`,
     ),
-    step("cells", "The way over cells", stages.grid_path, (n) =>
-      `The best ant's way goes over ${plural(n, "cell")}.`,
+    step(
+      "cells",
+      "The way over cells",
+      stages.grid_path,
+      (n) => `The best ant's way goes over ${plural(n, "cell")}.`,
     ),
-    step("nodes", "Nodes removed", stages.nodes, (n) =>
-      `${plural(n, "node")} remain where straight lines between them stay free.`,
+    step(
+      "nodes",
+      "Nodes removed",
+      stages.nodes,
+      (n) => `${plural(n, "node")} remain where straight lines between them stay free.`,
     ),
     arcs(plan),
     judged(plan),
@@ -77,5 +83,9 @@ function judged(plan: PlanState): Step | null {
       `${fixed(min_clearance_m, 2)} m clear at the tightest place.`;
     return { name: "judged", title: "Judged", sentence };
   }
-  return { name: "judged", title: "Judged", sentence: answer.reason ?? "There is no certified path." };
+  return {
+    name: "judged",
+    title: "Judged",
+    sentence: answer.reason ?? "There is no certified path.",
+  };
 }

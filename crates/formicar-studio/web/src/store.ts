@@ -52,6 +52,8 @@ export interface SlotState {
   seed: number;
   plan: PlanState | null;
   driven: DrivenMessage | null;
+  /** The drive waits where it is: the way on is being replanned. */
+  isHeld?: boolean;
 }
 
 /** What a finger or the mouse does to the map. */

@@ -8,8 +8,16 @@ import { stepsOf, type Step } from "./steps";
 import type { State, Store } from "./store";
 
 export class Telling {
-  private readonly open = h("button", { type: "button", class: "button quiet teller-open" }, icon("steps"), "Step by step");
-  private readonly card = h("section", { class: "teller-card", "aria-label": "The plan step by step" });
+  private readonly open = h(
+    "button",
+    { type: "button", class: "button quiet teller-open" },
+    icon("steps"),
+    "Step by step",
+  );
+  private readonly card = h("section", {
+    class: "teller-card",
+    "aria-label": "The plan step by step",
+  });
   private readonly dots = h("ol", { class: "teller-dots" });
   private readonly title = h("b", {});
   private readonly sentence = h("span", {});
@@ -24,7 +32,13 @@ export class Telling {
     const close = h("button", { type: "button", "aria-label": "End the telling" }, icon("close"));
     close.addEventListener("click", () => this.end());
     this.open.addEventListener("click", () => this.go(0));
-    const words = h("p", { class: "teller-words", "aria-live": "polite" }, this.title, " ", this.sentence);
+    const words = h(
+      "p",
+      { class: "teller-words", "aria-live": "polite" },
+      this.title,
+      " ",
+      this.sentence,
+    );
     this.card.append(this.dots, close, this.back, words, this.next);
     this.card.addEventListener("keydown", (event) => this.key(event));
     host.append(h("div", { class: "teller" }, this.open, this.card));
@@ -58,7 +72,12 @@ export class Telling {
     if (key !== this.told) {
       this.told = key;
       const dots = steps.map(({ title }, i) => {
-        const dot = h("button", { type: "button", "aria-label": title, title, onclick: () => this.go(i) });
+        const dot = h("button", {
+          type: "button",
+          "aria-label": title,
+          title,
+          onclick: () => this.go(i),
+        });
         return h("li", {}, dot);
       });
       this.dots.replaceChildren(...dots);
@@ -98,6 +117,10 @@ export class Telling {
 
   private arrow(label: string, name: string, by: 1 | -1): HTMLButtonElement {
     const onclick = () => this.move(by);
-    return h("button", { type: "button", class: name, "aria-label": label, title: label, onclick }, icon("chevron"));
+    return h(
+      "button",
+      { type: "button", class: name, "aria-label": label, title: label, onclick },
+      icon("chevron"),
+    );
   }
 }

@@ -13,7 +13,7 @@ const LEAST_SHARE = 0.35;
 const MARGIN_PX = 18;
 const LEAST_MARGIN_PX = 6;
 /** The tools stand in the upper left corner, so wide and high. */
-const TOOLS_PX: Point = [276, 56];
+const TOOLS_PX: Point = [276, 80];
 
 export class Camera {
   x = 0;

@@ -67,7 +67,18 @@ function drawWheels(sheet: Sheet, vehicle: VehicleMessage, look: CarLook): void 
   for (const [x, y, angle] of wheels) {
     const wheel = new Path2D();
     const [u, v] = [size[0] / 2, size[1] / 2];
-    addFootprint(wheel, [[u, v], [-u, v], [-u, -v], [u, -v]], x, y, angle);
+    addFootprint(
+      wheel,
+      [
+        [u, v],
+        [-u, v],
+        [-u, -v],
+        [u, -v],
+      ],
+      x,
+      y,
+      angle,
+    );
     ctx.fill(wheel);
   }
 }
@@ -86,8 +97,18 @@ function drawWindscreen(sheet: Sheet, vehicle: VehicleMessage, look: CarLook): v
   ctx.stroke();
 }
 
-function extent(vehicle: VehicleMessage): { minX: number; maxX: number; minY: number; maxY: number } {
+function extent(vehicle: VehicleMessage): {
+  minX: number;
+  maxX: number;
+  minY: number;
+  maxY: number;
+} {
   const xs = vehicle.footprint.map(([x]) => x);
   const ys = vehicle.footprint.map(([, y]) => y);
-  return { minX: Math.min(...xs), maxX: Math.max(...xs), minY: Math.min(...ys), maxY: Math.max(...ys) };
+  return {
+    minX: Math.min(...xs),
+    maxX: Math.max(...xs),
+    minY: Math.min(...ys),
+    maxY: Math.max(...ys),
+  };
 }

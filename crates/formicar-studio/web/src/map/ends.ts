@@ -30,13 +30,19 @@ export function drawEnds(
   for (const end of ENDS) {
     const color = end === "start" ? sheet.colors.start : sheet.colors.goal;
     const pose = request[end];
-    if (vehicle !== null) drawCar(sheet, vehicle, pose, { color, fill: end === "start" ? 0.4 : 0.16 });
+    if (vehicle !== null)
+      drawCar(sheet, vehicle, pose, { color, fill: end === "start" ? 0.4 : 0.16 });
     const isFree = headingOf(request, end) === "any";
     if (vehicle?.motion !== "point") {
-      drawArrow(sheet, pose, vehicle, { color, isFree, isHeld: held?.end === end && held.part === "heading" });
+      drawArrow(sheet, pose, vehicle, {
+        color,
+        isFree,
+        isHeld: held?.end === end && held.part === "heading",
+      });
     }
     drawDot(sheet, pose, end, held?.end === end && held.part === "body");
-    if (sheet.view.shows(pose[0], pose[1])) label(sheet, end, sheet.view.toPx(pose[0], pose[1]), color, 12);
+    if (sheet.view.shows(pose[0], pose[1]))
+      label(sheet, end, sheet.view.toPx(pose[0], pose[1]), color, 12);
   }
 }
 
@@ -51,7 +57,10 @@ export function gripAt(
   const distance = ([x, y]: Point) => Math.hypot(x - at[0], y - at[1]);
   const grips = ENDS.flatMap((end): { grip: Grip; px: number }[] => {
     const pose = request[end];
-    const body = { grip: { end, part: "body" } as const, px: bodyDistancePx(view, pose, vehicle, at) };
+    const body = {
+      grip: { end, part: "body" } as const,
+      px: bodyDistancePx(view, pose, vehicle, at),
+    };
     if (vehicle?.motion === "point") return [body];
     const tip = tipPx(view, pose, vehicle);
     return [{ grip: { end, part: "heading" }, px: distance(tip) - GRIP_PX - 2 }, body];

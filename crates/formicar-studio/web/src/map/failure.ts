@@ -13,7 +13,12 @@ export function drawFailure(sheet: Sheet, map: MapState, answer: Answer): void {
   if (collision) drawCollision(sheet, map, collision.cells);
   if (!gap) return;
   drawGap(sheet, gap.x, gap.y, gap.gap_m);
-  ring(sheet, gap.x, gap.y, `gap ${fixed(gap.gap_m, 2)} m, vehicle ${fixed(gap.vehicle_width_m, 2)} m`);
+  ring(
+    sheet,
+    gap.x,
+    gap.y,
+    `gap ${fixed(gap.gap_m, 2)} m, vehicle ${fixed(gap.vehicle_width_m, 2)} m`,
+  );
 }
 
 /** The reason in words; null where there is a path. */
@@ -22,12 +27,13 @@ export function reasonOf(answer: Answer): string | null {
   if (answer.status === "cancelled") return null;
   const { disconnected } = answer.explanation ?? {};
   const reason = answer.reason ?? answer.code;
-  if (!disconnected) return reason;
+  // A gap that is drawn says it better.
+  if (!disconnected || answer.explanation?.gap) return reason;
   const { disc_radius_m, n_cells_at_start, n_cells_at_goal } = disconnected;
   const measures =
     `start and goal lie apart for a disc of ${fixed(disc_radius_m, 2)} m: ` +
     `${n_cells_at_start} cells about the start, ${n_cells_at_goal} about the goal`;
-  return reason.includes("disc") ? reason : `${reason}; ${measures}`;
+  return `${reason}; ${measures}`;
 }
 
 function drawCollision(sheet: Sheet, map: MapState, cells: readonly [number, number][]): void {

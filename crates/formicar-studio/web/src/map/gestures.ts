@@ -93,7 +93,8 @@ export class Gestures {
 
   private wheel(event: WheelEvent): void {
     event.preventDefault();
-    const px = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? event.deltaY : event.deltaY * LINE_PX;
+    const px =
+      event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? event.deltaY : event.deltaY * LINE_PX;
     const rate = event.ctrlKey ? PINCH_PER_PX : ZOOM_PER_PX;
     this.camera.zoom(Math.exp(-px * rate), this.view.toWorld(this.place(event)));
   }

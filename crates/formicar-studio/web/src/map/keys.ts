@@ -8,6 +8,8 @@ const PAN_PX = 60;
 const ZOOM = 1.3;
 const BRUSH = 1.25;
 const MAX_BRUSH_CELLS = 60;
+/** Inputs that take no letters. */
+const UNTYPED = ["range", "checkbox", "radio", "button"];
 
 /** Keys while the map has the focus: pan, zoom, fit. */
 export function mapKeys(element: HTMLElement, view: View, fit: () => void): void {
@@ -67,9 +69,10 @@ function scaleBrush(store: Store, factor: number): void {
   store.set({ brushM: Math.min(Math.max(brushM * factor, least), most) });
 }
 
-/** Whether keys belong to what has the focus. */
+/** Whether keys belong to what has the focus: a field or a dialog. */
 export function isTyping(target: EventTarget | null): boolean {
   if (!(target instanceof HTMLElement)) return false;
   if (target.closest("dialog") !== null) return true;
-  return target.isContentEditable || ["INPUT", "TEXTAREA", "SELECT"].includes(target.tagName);
+  if (target instanceof HTMLInputElement) return !UNTYPED.includes(target.type);
+  return target.isContentEditable || ["TEXTAREA", "SELECT"].includes(target.tagName);
 }

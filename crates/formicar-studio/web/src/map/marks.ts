@@ -26,7 +26,12 @@ export function label(sheet: Sheet, text: string, at: Point, color: string, away
 
 /** Words keep off a place in pixels. */
 export function keepOff(sheet: Sheet, [x, y]: Point, radiusPx: number): void {
-  sheet.words.push({ left: x - radiusPx, top: y - radiusPx, right: x + radiusPx, bottom: y + radiusPx });
+  sheet.words.push({
+    left: x - radiusPx,
+    top: y - radiusPx,
+    right: x + radiusPx,
+    bottom: y + radiusPx,
+  });
 }
 
 /** The first place around a point that is free, else the first that is within the view. */
@@ -44,7 +49,12 @@ function place(sheet: Sheet, [x, y]: Point, width: number, away: number): Box {
     [right, y - 32],
   ];
   const boxes = corners.map(([boxLeft, middleY]): Box => {
-    return { left: boxLeft, top: middleY - HALF_PX, right: boxLeft + width, bottom: middleY + HALF_PX };
+    return {
+      left: boxLeft,
+      top: middleY - HALF_PX,
+      right: boxLeft + width,
+      bottom: middleY + HALF_PX,
+    };
   });
   const isIn = (box: Box) =>
     box.left >= 2 && box.top >= 2 && box.right <= widthPx - 2 && box.bottom <= heightPx - 2;
@@ -106,7 +116,13 @@ export function scaleBar(sheet: Sheet): void {
   sheet.faint(0.85, () => ctx.stroke());
   sheet.pen(colors.ink, 1.6);
   ctx.stroke();
-  label(sheet, `${lengthM < 1 ? lengthM.toFixed(1) : lengthM} m`, [left + lengthPx, y + 10], colors.ink, 10);
+  label(
+    sheet,
+    `${lengthM < 1 ? lengthM.toFixed(1) : lengthM} m`,
+    [left + lengthPx, y + 10],
+    colors.ink,
+    10,
+  );
 }
 
 /** The largest 1, 2 or 5 times a power of ten that is not more. */

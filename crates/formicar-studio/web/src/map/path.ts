@@ -126,7 +126,14 @@ function linesOf(shape: PathShape): Drawn {
     for (let i = from + 1; i <= to; i += 1) line.lineTo(shape.x[i]!, shape.y[i]!);
     return { gear, line };
   });
-  const fresh: Drawn = { runs, swept: null, outlines: null, footprint: null, isFine: false, spacingM: 0 };
+  const fresh: Drawn = {
+    runs,
+    swept: null,
+    outlines: null,
+    footprint: null,
+    isFine: false,
+    spacingM: 0,
+  };
   drawn.set(shape, fresh);
   return fresh;
 }

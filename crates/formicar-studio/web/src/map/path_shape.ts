@@ -45,7 +45,8 @@ export function shapeOfFrame(frame: ImprovedFrame): PathShape {
     Float64Array.from({ length: n }, (_, i) => frame.poses[4 * i + offset] ?? 0);
   const [x, y, heading] = [column(0), column(1), column(2)];
   const s = new Float64Array(n);
-  for (let i = 1; i < n; i += 1) s[i] = s[i - 1]! + Math.hypot(x[i]! - x[i - 1]!, y[i]! - y[i - 1]!);
+  for (let i = 1; i < n; i += 1)
+    s[i] = s[i - 1]! + Math.hypot(x[i]! - x[i - 1]!, y[i]! - y[i - 1]!);
   // Chords are a little shorter than the arcs: the end is made to fit, so that charts agree.
   const stretch = n > 1 && s[n - 1]! > 0 ? frame.length_m / s[n - 1]! : 1;
   for (let i = 0; i < n; i += 1) s[i] = s[i]! * stretch;
@@ -89,7 +90,11 @@ export function clearanceAt(shape: PathShape, s: number): number | null {
 }
 
 /** The arc length nearest to a place, and how far it is off, metres. */
-export function nearestOn(shape: PathShape, x: number, y: number): { s: number; distance_m: number } {
+export function nearestOn(
+  shape: PathShape,
+  x: number,
+  y: number,
+): { s: number; distance_m: number } {
   let best = { s: 0, distance_m: Infinity };
   for (let i = 1; i < shape.n; i += 1) {
     const [ax, ay] = [shape.x[i - 1]!, shape.y[i - 1]!];

@@ -32,7 +32,9 @@ export class Sheet {
   /** Takes on the size of the view. */
   resize(dpr: number): void {
     this.dpr = dpr;
-    const [width, height] = [this.view.widthPx, this.view.heightPx].map((px) => Math.round(px * dpr));
+    const [width, height] = [this.view.widthPx, this.view.heightPx].map((px) =>
+      Math.round(px * dpr),
+    );
     if (width !== undefined && this.canvas.width !== width) this.canvas.width = width;
     if (height !== undefined && this.canvas.height !== height) this.canvas.height = height;
   }
@@ -96,7 +98,10 @@ export class Sheet {
 }
 
 /** A polyline of x, y, x, y ... added to a path. */
-export function addPolyline(path: Path2D | CanvasRenderingContext2D, points: ArrayLike<number>): void {
+export function addPolyline(
+  path: Path2D | CanvasRenderingContext2D,
+  points: ArrayLike<number>,
+): void {
   for (let i = 0; i + 1 < points.length; i += 2) {
     const [x, y] = [points[i] as number, points[i + 1] as number];
     if (i === 0) path.moveTo(x, y);

@@ -5,7 +5,15 @@ import type { StepName } from "../steps";
 import type { MapState } from "../store";
 import { addPolyline, type Sheet } from "./sheet";
 
-const ORDER: readonly StepName[] = ["map", "expanded", "closed", "cells", "nodes", "arcs", "judged"];
+const ORDER: readonly StepName[] = [
+  "map",
+  "expanded",
+  "closed",
+  "cells",
+  "nodes",
+  "arcs",
+  "judged",
+];
 
 /** Whether a step is the shown one or comes before it. */
 export function isTold(name: StepName, shown: StepName): boolean {
@@ -52,7 +60,10 @@ export function drawStageWays(sheet: Sheet, map: MapState, stages: Stages, shown
 function way(sheet: Sheet, cells: readonly number[], widthPx: number, dashPx: number[]): void {
   const { ctx, colors } = sheet;
   ctx.beginPath();
-  addPolyline(ctx, cells.map((coordinate) => coordinate + 0.5));
+  addPolyline(
+    ctx,
+    cells.map((coordinate) => coordinate + 0.5),
+  );
   sheet.pen(colors.page, widthPx + 2.6);
   sheet.faint(0.8, () => ctx.stroke());
   sheet.pen(colors.waypoints, widthPx, dashPx);

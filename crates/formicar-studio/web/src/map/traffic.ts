@@ -26,7 +26,12 @@ interface Drawn {
 const drawn = new WeakMap<IterationFrame, Drawn>();
 
 /** Draws an iteration; its ants have walked for so many seconds. */
-export function drawTraffic(sheet: Sheet, map: MapState, frame: IterationFrame, walkedS: number): void {
+export function drawTraffic(
+  sheet: Sheet,
+  map: MapState,
+  frame: IterationFrame,
+  walkedS: number,
+): void {
   const { colors } = sheet;
   const ctx = sheet.inCells(map);
   const kept = drawn.get(frame) ?? prepare(frame);
@@ -45,15 +50,29 @@ export function drawTraffic(sheet: Sheet, map: MapState, frame: IterationFrame, 
   drawAnts(sheet, kept.lanes, walkedS, Math.max(map.n_cols, map.n_rows));
 }
 
-function drawAnts(sheet: Sheet, lanes: readonly number[][], walkedS: number, nAcross: number): void {
+function drawAnts(
+  sheet: Sheet,
+  lanes: readonly number[][],
+  walkedS: number,
+  nAcross: number,
+): void {
   const follow = Math.max(FOLLOW_CELLS, FOLLOW_SHARE * nAcross);
   const speed = Math.max(CELLS_PER_S, SHARE_PER_S * nAcross);
   const ants = new Ants(sheet);
   lanes.forEach((lane, i) => {
     const nSteps = (lane.length >> 1) - 1;
-    for (let at = (walkedS * speed + (i / lanes.length) * follow) % follow; at < nSteps; at += follow) {
+    for (
+      let at = (walkedS * speed + (i / lanes.length) * follow) % follow;
+      at < nSteps;
+      at += follow
+    ) {
       const step = Math.floor(at);
-      const [x, y, toX, toY] = lane.slice(2 * step, 2 * step + 4) as [number, number, number, number];
+      const [x, y, toX, toY] = lane.slice(2 * step, 2 * step + 4) as [
+        number,
+        number,
+        number,
+        number,
+      ];
       const t = at - step;
       ants.add(x + t * (toX - x), y + t * (toY - y), toX - x, toY - y);
     }
@@ -118,9 +137,11 @@ function lanesOf(frame: IterationFrame): number[][] {
   const depths = depthsFrom(start, passages);
   return Array.from({ length: N_LANES }, (_, lane) => {
     const way = [startCol + 0.5, startRow + 0.5];
-    for (let at: number | null = start; at !== null; ) {
+    for (let at: number | null = start; at !== null;) {
       const depth: number = depths.get(at) ?? 0;
-      const onwards: Passage[] = (passages.get(at) ?? []).filter(({ to }) => (depths.get(to) ?? 0) > depth);
+      const onwards: Passage[] = (passages.get(at) ?? []).filter(
+        ({ to }) => (depths.get(to) ?? 0) > depth,
+      );
       const next = pick(onwards, noise(lane, at));
       if (next !== null) way.push(next.col + 0.5, next.row + 0.5);
       at = next?.to ?? null;
@@ -145,7 +166,13 @@ function passagesByCell(flat: readonly number[]): Map<number, Passage[]> {
     else passages.set(from, [passage]);
   };
   for (let i = 0; i + 4 < flat.length; i += 5) {
-    const [col, row, toCol, toRow, n] = flat.slice(i, i + 5) as [number, number, number, number, number];
+    const [col, row, toCol, toRow, n] = flat.slice(i, i + 5) as [
+      number,
+      number,
+      number,
+      number,
+      number,
+    ];
     add(keyOf(col, row), toCol, toRow, n);
     add(keyOf(toCol, toRow), col, row, n);
   }

@@ -4,16 +4,12 @@ import "./map.css";
 
 import type { Actions } from "../actions";
 import { h, setText } from "../dom";
-import { fixed } from "../format";
 import type { Slot } from "../protocol";
 import { stats } from "../stats";
-import { stepsOf, type Step } from "../steps";
-import type { MapState, PlanState, SlotState, State, Store } from "../store";
+import type { Store } from "../store";
 import { onThemeChange } from "../theme";
-import { pointAt, poseOf } from "../trace";
 import { drawBrush } from "./brush";
 import { cameraOf, View } from "./camera";
-import { drawCar } from "./car";
 import { drawEnds } from "./ends";
 import { drawFailure, reasonOf } from "./failure";
 import { Gestures } from "./gestures";
@@ -21,13 +17,14 @@ import { Ground } from "./ground";
 import { Handles } from "./handles";
 import { Hands } from "./hands";
 import { mapKeys, pageKeys } from "./keys";
-import { keepOff, label, ring, scaleBar } from "./marks";
+import { scaleBar } from "./marks";
+import { drawDrive, drawHover, drawTightest, keepRoom } from "./overlay";
 import { palette } from "./palette";
 import { drawPath, drawSwept } from "./path";
-import { clearanceAt, type PathShape, poseAt, shapeOfAnswer, shapeOfFrame } from "./path_shape";
+import type { PathShape } from "./path_shape";
 import { Pheromone } from "./pheromone";
-import { type Moment, momentOf } from "./playhead";
 import { drawDrivers, drawNewest, Expanded } from "./race";
+import { type Scene, sceneOf } from "./scene";
 import { Sheet } from "./sheet";
 import { drawStageCells, drawStageWays, isTold } from "./stages";
 import { drawGeneration, drawTraffic } from "./traffic";
@@ -51,17 +48,6 @@ const MAX_DPR = 2;
 const MAX_STEP_MS = 100;
 const LABEL =
   "Map. Arrow keys pan, plus and minus zoom, F fits; M moves, P paints, E erases; tab goes to start and goal.";
-
-/** All that a picture of a moment is made from. */
-interface Scene {
-  state: Readonly<State>;
-  map: MapState;
-  side: SlotState;
-  plan: PlanState | null;
-  moment: Moment;
-  step: Step | null;
-  shape: PathShape | null;
-}
 
 export class MapView {
   private readonly element: HTMLElement;
@@ -152,23 +138,11 @@ export class MapView {
   }
 
   private shape(): PathShape | null {
-    const scene = this.scene();
-    return scene?.shape ?? null;
+    return this.scene()?.shape ?? null;
   }
 
   private scene(): Scene | null {
-    const { state } = this.store;
-    const { map } = state;
-    const side = state.slots[this.slot];
-    if (map === null || side === null) return null;
-    const { plan } = side;
-    const moment = momentOf(state, this.slot);
-    const answer = plan?.end?.answer ?? null;
-    const ended = moment.nBegun === null && answer !== null ? shapeOfAnswer(answer) : null;
-    const shape = ended ?? (moment.path === null ? null : shapeOfFrame(moment.path));
-    const steps = state.step === null ? [] : stepsOf(plan, map);
-    const step = steps[Math.min(state.step ?? 0, steps.length - 1)] ?? null;
-    return { state, map, side, plan, moment, step, shape };
+    return sceneOf(this.store.state, this.slot);
   }
 
   private draw(): void {
@@ -187,7 +161,8 @@ export class MapView {
     this.drawOver(scene);
     this.write(scene);
     const { plan } = scene;
-    if (plan !== null && (scene.shape !== null || plan.end !== null)) stats.pathDrawn(plan.plan);
+    const hasPath = scene.shape !== null;
+    if (plan !== null && (hasPath || plan.end !== null)) stats.planDrawn(plan.plan, hasPath);
     stats.frameDrawn(performance.now() - started, isUnderWay || scene.state.driveS !== null);
   }
 
@@ -197,9 +172,18 @@ export class MapView {
     const { camera } = this.view;
     const bytes = state.layers.pheromone && step === null ? moment.iteration?.pheromone : undefined;
     const stages = plan?.end?.stages;
-    const key: unknown[] = [map.values, map.version, camera.x, camera.y, camera.pxPerM, base.colors, bytes];
+    const key: unknown[] = [
+      map.values,
+      map.version,
+      camera.x,
+      camera.y,
+      camera.pxPerM,
+      base.colors,
+      bytes,
+    ];
     key.push(step?.name, step === null ? null : stages);
-    if (key.length === this.baseKey.length && key.every((part, i) => part === this.baseKey[i])) return;
+    if (key.length === this.baseKey.length && key.every((part, i) => part === this.baseKey[i]))
+      return;
     this.baseKey = key;
     const ctx = base.inPixels();
     ctx.fillStyle = base.colors.offMap;
@@ -209,9 +193,13 @@ export class MapView {
     if (step !== null && stages !== undefined) drawStageCells(base, map, stages, step.name);
   }
 
+  /** Where hybrid A* has been; where it found no way, all of it stays. */
   private drawSearch({ state, plan, moment, step }: Scene): void {
-    const isShown = plan !== null && moment.nBegun !== null && state.layers.ants && step === null;
-    if (isShown) this.expanded.draw(plan.frames, moment.nBegun ?? 0);
+    const { frames, end } = plan ?? { frames: [], end: null };
+    const nAtEnd = end !== null && !end.answer.path ? frames.length : 0;
+    const isShown = state.layers.ants && step === null;
+    const nShown = isShown ? (moment.nBegun ?? nAtEnd) : 0;
+    if (nShown > 0) this.expanded.draw(frames, nShown);
     else this.expanded.clear();
   }
 
@@ -219,7 +207,7 @@ export class MapView {
     const { over } = this;
     const { state, map, plan, step, side } = scene;
     over.clear();
-    this.keepRoom(scene);
+    keepRoom(over, scene);
     this.drawWays(scene);
     if (step !== null && plan?.end) drawStageWays(over, map, plan.end.stages, step.name);
     if (step === null || isTold("arcs", step.name)) this.drawShape(scene);
@@ -227,19 +215,12 @@ export class MapView {
     const answer = plan?.end?.answer;
     const isEnd = scene.moment.nBegun === null;
     if (answer && isEnd && !answer.path && step === null) drawFailure(over, map, answer);
-    if (side.driven !== null && state.driveS !== null) this.drawDrive(scene);
-    else if (isEnd) this.drawTightest(scene);
-    if (state.shown === this.slot) this.drawHover(scene);
-    if (state.tool !== "move" && this.hands.pointer) drawBrush(over, this.hands.pointer, state.brushM);
+    if (side.driven !== null && state.driveS !== null) drawDrive(over, scene);
+    else if (isEnd) drawTightest(over, scene);
+    if (state.shown === this.slot) drawHover(over, scene);
+    if (state.tool !== "move" && this.hands.pointer)
+      drawBrush(over, this.hands.pointer, state.brushM);
     scaleBar(over);
-  }
-
-  /** Words keep off what they stand beside. */
-  private keepRoom({ state, plan }: Scene): void {
-    const { start, goal } = state.request;
-    for (const [x, y] of [start, goal]) keepOff(this.over, this.view.toPx(x, y), 7);
-    const tightest = plan?.end?.tightest;
-    if (tightest && state.layers.clearance) keepOff(this.over, this.view.toPx(tightest.x, tightest.y), 13);
   }
 
   /** Ants, and what else the run shows on its way. */
@@ -262,60 +243,14 @@ export class MapView {
     drawPath(over, shape);
   }
 
-  private drawTightest({ state, plan, step }: Scene): void {
-    const tightest = state.layers.clearance ? plan?.end?.tightest : null;
-    if (!tightest || (step !== null && step.name !== "judged")) return;
-    if (!this.view.shows(tightest.x, tightest.y)) return;
-    ring(this.over, tightest.x, tightest.y, `${fixed(tightest.clearance_m, 2)} m`);
-  }
-
-  private drawDrive({ state, side }: Scene): void {
-    const { driven } = side;
-    const { vehicle, driveS } = state;
-    if (driven === null || driveS === null || vehicle === null) return;
-    const { over } = this;
-    const ctx = over.inWorld();
-    ctx.beginPath();
-    for (const point of driven.trace) {
-      if (point.t_s > driveS) break;
-      ctx.lineTo(point.pose.x, point.pose.y);
-    }
-    over.pen(over.colors.ink, 1.6, [2, 4]);
-    ctx.stroke();
-    const point = pointAt(driven, driveS);
-    if (point === null) return;
-    const isAtEnd = driveS >= (driven.trace.at(-1)?.t_s ?? 0);
-    const hasHit = !driven.tracked && isAtEnd;
-    drawCar(over, vehicle, poseOf(point), {
-      color: hasHit ? over.colors.limit : over.colors.forward,
-      fill: 0.5,
-      wheels: [point.left_wheel_rad, point.right_wheel_rad],
-    });
-    if (driven.contact && driveS >= driven.contact.t_s) {
-      ring(over, driven.contact.x, driven.contact.y, "contact");
-    }
-  }
-
-  /** The place of the path that is pointed at. */
-  private drawHover({ state, shape }: Scene): void {
-    const { hoverM, vehicle } = state;
-    if (hoverM === null || shape === null || vehicle === null) return;
-    const { over } = this;
-    const pose = poseAt(shape, hoverM);
-    drawCar(over, vehicle, pose, { color: over.colors.ink, fill: 0 });
-    const clearance = clearanceAt(shape, hoverM);
-    const words = clearance === null ? "" : `, ${fixed(clearance, 2)} m clear`;
-    const at = this.view.toPx(pose[0], pose[1]);
-    label(over, `at ${fixed(hoverM, 1)} m${words}`, [at[0], at[1] - 22], over.colors.ink, 14);
-  }
-
   /** Words over the map, and where the buttons for keyboards are. */
   private write({ state, plan, moment }: Scene): void {
     this.handles.place();
     this.element.style.cursor = this.hands.cursor;
     setText(this.readout, this.hands.readout);
     const answer = plan?.end?.answer;
-    const reason = answer && moment.nBegun === null && state.step === null ? reasonOf(answer) : null;
+    const reason =
+      answer && moment.nBegun === null && state.step === null ? reasonOf(answer) : null;
     // While something is held, words would flicker under the hand.
     this.note.hidden = reason === null || this.hands.isBusy;
     setText(this.note, reason ?? "");

@@ -63,6 +63,8 @@ pub struct Improver<'a> {
     task: Task<'a>,
 }
 
+/// Tries, which take much longer than steps of a search, between two looks at the clock.
+const TRIES_PER_LOOK: u64 = 16;
 /// Tries between two looks at whether there is something to tell.
 const TRIES_PER_ROUND: u64 = 64;
 /// The least gain that is worth telling, relative to the cost.
@@ -236,6 +238,9 @@ impl Run<'_, '_, '_> {
     /// Counts a try and gives it its random numbers.
     fn begin(&mut self) -> Result<RandomStream, Status> {
         self.limits.step()?;
+        if self.n_tries.is_multiple_of(TRIES_PER_LOOK) {
+            self.limits.look()?;
+        }
         if self.n_tries.is_multiple_of(TRIES_PER_ROUND) {
             self.tell();
         }

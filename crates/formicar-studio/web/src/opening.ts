@@ -1,0 +1,139 @@
+/** Opening maps and scenes: what belongs to one is put in place when its map comes. */
+
+import { vehicleChoice } from "./choices";
+import type { Connection } from "./connection";
+import { firstRequest } from "./first_request";
+import { decode, defaultConfig, type Scene } from "./link";
+import type { Config, MapChoice, MapMessage } from "./protocol";
+import type { MapState, SlotState, Store } from "./store";
+import type { Strokes } from "./strokes";
+
+/** A scene whole, or a map with its own vehicle and one of its requests. */
+export type Wanted = { map: MapChoice; requestId?: string } & Partial<Scene>;
+
+/** A request that ants die on and hybrid A* has to work for: there is something to see. */
+const FIRST: Wanted = { map: { builtin: "neighborhood" }, requestId: "into-dead-end" };
+const FIRST_PLANNER = "formicar";
+/** Planners that drive, and what walks over cells where a point is to be planned for. */
+const DRIVING_PLANNERS = ["formicar", "hybrid-astar"];
+const WALKING_PLANNER = "ant-system";
+/** The brush begins at this share of the map's width, and not below a cell. */
+const BRUSH_SHARE = 0.012;
+
+export class Opening {
+  private wanted: Wanted | null = null;
+  private current: MapChoice = FIRST.map;
+  /** What a point cannot be planned with, kept for the next car. */
+  private drivingConfig: Config | null = null;
+
+  constructor(
+    private readonly store: Store,
+    private readonly connection: Connection,
+    private readonly strokes: Strokes,
+  ) {}
+
+  /** Whether a map is awaited. */
+  get isAwaited(): boolean {
+    return this.wanted !== null;
+  }
+
+  /** What opens the map that is open. */
+  get choice(): MapChoice {
+    return this.current;
+  }
+
+  open(wanted: Wanted): void {
+    this.wanted = wanted;
+    this.connection.send({ type: "open_map", map: wanted.map });
+  }
+
+  openFirst(): void {
+    this.open(FIRST);
+  }
+
+  /** Opens the scene of a link; false where there is none in it. */
+  async openLink(hash: string): Promise<boolean> {
+    const { catalog } = this.store.state;
+    const scene = catalog === null ? null : await decode(hash, catalog);
+    if (scene !== null) this.open(scene);
+    return scene !== null;
+  }
+
+  /** The line stands again. The server has forgotten all that the page has not; whether it can be
+   * planned on at once. */
+  reopen(): boolean {
+    const { map, vehicle } = this.store.state;
+    if (this.wanted !== null) this.open(this.wanted);
+    if (this.wanted !== null || map === null) return false;
+    this.connection.send({ type: "open_map", map: this.current });
+    if (map.isEdited) this.strokes.sendAll(map);
+    if (vehicle !== null) {
+      this.connection.send({ type: "set_vehicle", vehicle: vehicleChoice(vehicle) });
+    }
+    return true;
+  }
+
+  /** A map came; false where it is here already, as after a broken line. */
+  came(message: MapMessage, payload: Uint8Array): boolean {
+    const { wanted } = this;
+    if (wanted === null && this.store.state.map !== null) return false;
+    this.wanted = null;
+    this.current = wanted?.map ?? FIRST.map;
+    const values = new Int8Array(payload.slice().buffer);
+    const map: MapState = { ...message, values, isEdited: false, version: 0 };
+    const brushM = Math.max(map.resolution_m, BRUSH_SHARE * map.resolution_m * map.n_cols);
+    this.store.set({ map, brushM, error: null, driveS: null });
+    this.store.set({ hoverM: null, step: null, frame: null, isPlaying: false });
+    this.place(map, wanted ?? FIRST);
+    return true;
+  }
+
+  /** The map that was wanted could not be opened. */
+  failed(): void {
+    const wasFirst = JSON.stringify(this.wanted?.map) === JSON.stringify(FIRST.map);
+    this.wanted = null;
+    if (this.store.state.map === null && !wasFirst) this.openFirst();
+  }
+
+  /** Puts vehicle, request and planners of a scene in place. */
+  private place(map: MapState, wanted: Wanted): void {
+    const { slots, shown, vehicle } = this.store.state;
+    // A built-in map comes with its vehicle; on others the one at hand is planned for.
+    const atHand = map.vehicle === null && vehicle !== null ? vehicleChoice(vehicle) : null;
+    const choice = wanted.vehicle ?? atHand;
+    if (choice !== null) this.connection.send({ type: "set_vehicle", vehicle: choice });
+    const preset = choice !== null && "preset" in choice ? choice.preset : map.vehicle;
+    const first = map.requests.find(({ id }) => id === wanted.requestId) ?? map.requests[0];
+    const own = first ? { start: first.start, goal: first.goal } : firstRequest(map, vehicle);
+    const [a, b] = wanted.slots ?? [
+      { ...slots.a, config: this.configFor(slots.a.config, preset === "point") },
+      slots.b,
+    ];
+    this.store.set({
+      request: wanted.request ?? own,
+      slots: { a: fresh(a ?? slots.a), b: b ? fresh(b) : null },
+      shown: wanted.shown ?? (b ? shown : "a"),
+    });
+  }
+
+  /** A configuration, or one that can plan for a point where that is asked. */
+  private configFor(config: Config, isPoint: boolean): Config {
+    const { catalog } = this.store.state;
+    if (catalog === null) return config;
+    const isKnown = catalog.planners.some(({ name }) => name === config.planner);
+    const current = isKnown ? config : defaultConfig(catalog, FIRST_PLANNER);
+    if (isPoint && DRIVING_PLANNERS.includes(current.planner)) {
+      this.drivingConfig = current;
+      return defaultConfig(catalog, WALKING_PLANNER);
+    }
+    const { drivingConfig } = this;
+    if (isPoint || drivingConfig === null) return current;
+    this.drivingConfig = null;
+    return current.planner === WALKING_PLANNER ? drivingConfig : current;
+  }
+}
+
+/** A side that has planned nothing yet. */
+function fresh({ config, seed }: { config: Config; seed: number }): SlotState {
+  return { config, seed, plan: null, driven: null };
+}
