@@ -327,12 +327,23 @@ fn verdict(name: &str, [n_better, n_worse]: [usize; 2], holm_p: Option<f64>) -> 
     };
     match holm_p {
         None => format!("In {name} nothing differs."),
-        Some(p) if p < 0.05 => format!("In {name} the tuned configuration is {side} (p = {p:.4})."),
+        Some(p) if p < 0.05 => {
+            format!(
+                "In {name} the tuned configuration is {side} ({}).",
+                after_holm(p, 4)
+            )
+        }
         Some(p) => format!(
-            "In {name} no difference is shown (p = {p:.2}): better on {n_better} scenarios, worse \
-             on {n_worse}."
+            "In {name} no difference is shown ({}): better on {n_better} scenarios, worse on \
+             {n_worse}.",
+            after_holm(p, 2)
         ),
     }
+}
+
+/// The probability that a sentence goes by, which is not that of the test alone.
+fn after_holm(p: f64, digits: usize) -> String {
+    format!("p = {p:.digits$} after Holm's adjustment")
 }
 
 fn scenarios(pairs: &[Pairs]) -> Table {
