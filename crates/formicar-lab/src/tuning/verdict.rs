@@ -283,7 +283,8 @@ fn summary(pairs: &[Pairs]) -> (Table, String) {
     .captioned(
         "Ratios are geometric means over scenarios, of runs with the same seed that both found a \
          path. Better and worse count scenarios; p is that of the signed-rank test of Wilcoxon over \
-         scenarios, two-sided (normal approximation: coarse below ten).",
+         scenarios, two-sided (exact up to 50 differences of different sizes, normal \
+         approximation beyond).",
     );
     let mut words = Vec::new();
     for (i, ((name, differences), p)) in rows.iter().zip(&p).enumerate() {
