@@ -283,7 +283,8 @@ fn summary(pairs: &[Pairs]) -> (Table, String) {
     .captioned(
         "Ratios are geometric means over scenarios, of runs with the same seed that both found a \
          path. Better and worse count scenarios; p is that of the signed-rank test of Wilcoxon over \
-         scenarios, two-sided (normal approximation: coarse below ten).",
+         scenarios, two-sided (exact up to 50 differences of different sizes, normal \
+         approximation beyond).",
     );
     let mut words = Vec::new();
     for (i, ((name, differences), p)) in rows.iter().zip(&p).enumerate() {
@@ -327,12 +328,23 @@ fn verdict(name: &str, [n_better, n_worse]: [usize; 2], holm_p: Option<f64>) -> 
     };
     match holm_p {
         None => format!("In {name} nothing differs."),
-        Some(p) if p < 0.05 => format!("In {name} the tuned configuration is {side} (p = {p:.4})."),
+        Some(p) if p < 0.05 => {
+            format!(
+                "In {name} the tuned configuration is {side} ({}).",
+                after_holm(p, 4)
+            )
+        }
         Some(p) => format!(
-            "In {name} no difference is shown (p = {p:.2}): better on {n_better} scenarios, worse \
-             on {n_worse}."
+            "In {name} no difference is shown ({}): better on {n_better} scenarios, worse on \
+             {n_worse}.",
+            after_holm(p, 2)
         ),
     }
+}
+
+/// The probability that a sentence goes by, which is not that of the test alone.
+fn after_holm(p: f64, digits: usize) -> String {
+    format!("p = {p:.digits$} after Holm's adjustment")
 }
 
 fn scenarios(pairs: &[Pairs]) -> Table {
