@@ -113,7 +113,7 @@ pub enum StudioError {
     #[error("the token: at least 16 letters and digits, nothing else")]
     BadToken,
     /// The port is taken, or must not be listened at.
-    #[error("cannot listen at {at}: {source}; hint: another --port, or 0 for any")]
+    #[error("cannot listen at {at}; hint: another --port, or 0 for any")]
     CannotListen {
         /// Where.
         at: SocketAddr,
@@ -121,7 +121,7 @@ pub enum StudioError {
         source: std::io::Error,
     },
     /// Serving failed.
-    #[error("the server stopped: {0}")]
+    #[error("the server stopped")]
     Stopped(#[from] std::io::Error),
 }
 

@@ -1,4 +1,5 @@
-/** Bundles `src` into `dist`, which is committed: the same sources give the same bytes. */
+/** Bundles `src` into `dist`, which is committed, or into the folder after `--out`: the same sources
+ * give the same bytes. */
 
 import { cp, mkdir, readFile } from "node:fs/promises";
 import { build, context } from "esbuild";
@@ -6,9 +7,12 @@ import { build, context } from "esbuild";
 /** What is bundled from others, with their licenses. */
 const license = await readFile("node_modules/uplot/LICENSE", "utf8");
 
+const place = process.argv.indexOf("--out");
+const outdir = place < 0 ? "dist" : process.argv[place + 1];
+
 const options = {
   entryPoints: { app: "src/main.ts" },
-  outdir: "dist",
+  outdir,
   bundle: true,
   format: "esm",
   target: "es2022",
@@ -16,10 +20,10 @@ const options = {
   minify: true,
   legalComments: "none",
   banner: { js: `/* Contains uPlot (https://github.com/leeoniya/uPlot):\n\n${license.trim()}\n*/` },
-  logLevel: "info",
+  logLevel: process.argv.includes("--quiet") ? "warning" : "info",
 };
 
-await mkdir("dist", { recursive: true });
-await cp("src/index.html", "dist/index.html");
+await mkdir(outdir, { recursive: true });
+await cp("src/index.html", `${outdir}/index.html`);
 if (process.argv.includes("--watch")) await (await context(options)).watch();
 else await build(options);

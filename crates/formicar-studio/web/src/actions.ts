@@ -332,6 +332,7 @@ export class Actions {
     this.store.set({ vehicle });
     if (!this.isVehicleAwaited) return;
     this.isVehicleAwaited = false;
+    this.store.set({ error: null });
     this.planAll("settle", performance.now());
   }
 
@@ -372,7 +373,7 @@ export class Actions {
     this.store.set({ error: message });
     if (about === "vehicle") this.isVehicleAwaited = false;
     if (about === "drive") this.driving.failed();
-    if (about === "map" && this.opening.isAwaited) this.opening.failed();
+    if (about === "map" && this.opening.isAwaited) this.opening.failed(message);
     else if (about === "map") this.keeping.refuse(message);
   }
 

@@ -76,13 +76,16 @@ export class DriveClock {
   }
 
   private tick(ms: number): void {
-    const { driveS } = this.store.state;
-    if (!this.isRunning || this.driven === null) return;
-    const isHeld = shownSlot(this.store.state).isHeld === true;
-    const stepS = isHeld ? 0 : Math.min(Math.max(0, (ms - this.lastMs) / 1000), LONGEST_STEP_S);
+    const { driven, isHeld } = shownSlot(this.store.state);
+    if (!this.isRunning) return;
+    if (driven === null) {
+      this.pause();
+      return;
+    }
+    const stepS = isHeld === true ? 0 : Math.min(Math.max(0, (ms - this.lastMs) / 1000), LONGEST_STEP_S);
     this.lastMs = ms;
-    const end = durationS(this.driven);
-    const next = Math.min((driveS ?? 0) + stepS * this.rate, end);
+    const end = durationS(driven);
+    const next = Math.min((this.store.state.driveS ?? 0) + stepS * this.rate, end);
     this.store.set({ driveS: next });
     if (next >= end) this.pause();
     else requestAnimationFrame((then) => this.tick(then));

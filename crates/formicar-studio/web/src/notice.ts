@@ -40,7 +40,4 @@ export function showNotices(host: HTMLElement, store: Store): void {
     if (state.error !== null)
       errorTimer = window.setTimeout(() => store.set({ error: null }), ERROR_SHOWN_MS);
   });
-  store.watch(["map", "vehicle"], () => {
-    if (!error.hidden) store.set({ error: null });
-  });
 }

@@ -22,6 +22,8 @@ const BRUSH_SHARE = 0.012;
 
 export class Opening {
   private wanted: Wanted | null = null;
+  /** Why what was wanted first could not be opened. */
+  private why: string | null = null;
   private current: MapChoice = FIRST.map;
   /** What a point cannot be planned with, kept for the next car. */
   private drivingConfig: Config | null = null;
@@ -82,17 +84,20 @@ export class Opening {
     const values = new Int8Array(payload.slice().buffer);
     const map: MapState = { ...message, values, isEdited: false, version: 0 };
     const brushM = Math.max(map.resolution_m, BRUSH_SHARE * map.resolution_m * map.n_cols);
-    this.store.set({ map, brushM, error: null, driveS: null });
+    this.store.set({ map, brushM, error: this.why, driveS: null });
+    this.why = null;
     this.store.set({ hoverM: null, step: null, frame: null, isPlaying: false });
     this.place(map, wanted ?? FIRST);
     return true;
   }
 
-  /** The map that was wanted could not be opened. */
-  failed(): void {
+  /** The map that was wanted could not be opened; without any the first one is, and why is said. */
+  failed(why: string): void {
     const wasFirst = JSON.stringify(this.wanted?.map) === JSON.stringify(FIRST.map);
     this.wanted = null;
-    if (this.store.state.map === null && !wasFirst) this.openFirst();
+    if (this.store.state.map !== null || wasFirst) return;
+    this.why = why;
+    this.openFirst();
   }
 
   /** Puts vehicle, request and planners of a scene in place. */

@@ -1,6 +1,6 @@
 /** The steps in which a plan can be told, as the papers tell it: one sentence each. */
 
-import { fixed, plural } from "./format";
+import { metres, plural } from "./format";
 import type { MapState, PlanState } from "./store";
 
 export type StepName = "map" | "expanded" | "closed" | "cells" | "nodes" | "arcs" | "judged";
@@ -79,8 +79,8 @@ function judged(plan: PlanState): Step | null {
   if (answer.certificate?.valid === true && answer.metrics) {
     const { length_m, min_clearance_m } = answer.metrics;
     const sentence =
-      `The judge drives the footprint along the path and certifies it: ${fixed(length_m, 2)} m, ` +
-      `${fixed(min_clearance_m, 2)} m clear at the tightest place.`;
+      `The judge drives the footprint along the path and certifies it: ${metres(length_m)}, ` +
+      `${metres(min_clearance_m)} clear at the tightest place.`;
     return { name: "judged", title: "Judged", sentence };
   }
   return {

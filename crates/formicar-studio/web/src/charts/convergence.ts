@@ -62,14 +62,14 @@ class Convergence {
     this.host.hidden = curves === null;
     if (curves === null || curves.key === this.key) return;
     this.key = curves.key;
-    const isOther = curves.kind !== this.kind;
-    this.kind = curves.kind;
-    this.plot.show(curves.data as uPlot.AlignedData);
-    if (isOther) this.rebuild(curves.kind);
+    const data = curves.data as uPlot.AlignedData;
+    if (curves.kind === this.kind) this.plot.show(data);
+    else this.renew(curves.kind, data);
     this.plot.mark("frame", this.placeOf(state));
   }
 
-  private rebuild(kind: Kind): void {
+  private renew(kind: Kind, data: uPlot.AlignedData): void {
+    this.kind = kind;
     setText(this.title, TITLES[kind]);
     const key = (name: string, text: string): HTMLElement =>
       h("span", { class: `key ${name}` }, text);
@@ -83,7 +83,7 @@ class Convergence {
           ]
         : [key("best", "certified path")]),
     );
-    this.plot.rebuild();
+    this.plot.renew(data);
   }
 
   /** Where the shown frame stands on the horizontal axis. */

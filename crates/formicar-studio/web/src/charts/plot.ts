@@ -33,8 +33,9 @@ export class Plot {
     this.placeMarks();
   }
 
-  /** Builds the chart anew: its options have changed. */
-  rebuild(): void {
+  /** Shows data that ask for other options: the chart is built anew. */
+  renew(data: uPlot.AlignedData): void {
+    this.data = data;
     this.build();
   }
 
@@ -46,9 +47,11 @@ export class Plot {
 
   private build(): void {
     const { clientWidth: width, clientHeight: height } = this.host;
-    if (width === 0 || height === 0 || this.data.length < 2) return;
     this.chart?.destroy();
+    this.chart = null;
     this.marks.clear();
+    // Without a size it is built as soon as it has one.
+    if (width === 0 || height === 0 || this.data.length < 2) return;
     this.chart = new uPlot({ ...this.options(), width, height }, this.data, this.host);
     this.listen(this.chart);
     this.placeMarks();

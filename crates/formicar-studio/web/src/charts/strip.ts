@@ -77,8 +77,9 @@ export class Strip {
     [this.poses, this.vehicle] = [poses, vehicle];
     this.extreme = this.extremeOf(values);
     setText(this.value, this.extreme);
-    this.plot.show([poses.map(({ s }) => s), values]);
-    if (isOther) this.plot.rebuild();
+    const data: uPlot.AlignedData = [poses.map(({ s }) => s), values];
+    if (isOther) this.plot.renew(data);
+    else this.plot.show(data);
   }
 
   hover(at: number | null, pose: PoseRecord | null): void {
