@@ -1,7 +1,7 @@
 /** Two planners side by side on the same request, and how their answers differ. */
 
 import assert from "node:assert/strict";
-import { answered, certified, openPanel, replanned, see, until, useStudio } from "./studio.mjs";
+import { answered, openBuiltin, openPanel, replanned, see, until, useStudio } from "./studio.mjs";
 
 const studio = useStudio();
 
@@ -14,7 +14,7 @@ function rowOf(page, name) {
 const number = (text) => Number(/[−-]?[\d.]+/.exec(text)[0].replace("−", "-"));
 
 studio.scene("two planners are compared, with a table of differences", {}, async (page) => {
-  await certified(page);
+  await openBuiltin(page, "narrow-junction");
   const panel = await openPanel(page, "compare");
   await panel.getByRole("button", { name: "Compare" }).click();
   const [a, b] = [await answered(page, "a"), await answered(page, "b")];
@@ -38,7 +38,7 @@ studio.scene("two planners are compared, with a table of differences", {}, async
   await page.locator(".map-host[data-slot=b] .map-view").click({ position: { x: 5, y: 5 } });
   assert.equal(await see(page, ({ shown }) => shown), "b");
   await page.locator(".map-host[data-slot=a] .map-handle[data-end=goal]").focus();
-  await page.keyboard.press("Shift+ArrowDown");
+  await page.keyboard.press("ArrowDown");
   const [movedA, movedB] = [await answered(page, "a", dragged), await answered(page, "b", other)];
   assert.deepEqual(movedA.request, movedB.request, "both plan the same");
   assert.notDeepEqual(movedA.request.goal, a.request.goal);
@@ -50,7 +50,7 @@ studio.scene("two planners are compared, with a table of differences", {}, async
 });
 
 studio.scene("two settings of one planner are compared, and their parameters told", {}, async (page) => {
-  await certified(page);
+  await openBuiltin(page, "narrow-junction");
   const panel = await openPanel(page, "compare");
   await panel.getByRole("button", { name: "Compare" }).click();
   await answered(page, "b");

@@ -6,7 +6,7 @@ import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { promisify } from "node:util";
-import { answered, BINARY, certified, openPanel, PATIENCE_MS, replanned, useStudio } from "./studio.mjs";
+import { answered, BINARY, certified, openBuiltin, openPanel, PATIENCE_MS, replanned, useStudio } from "./studio.mjs";
 
 const studio = useStudio();
 const run = promisify(execFile);
@@ -49,7 +49,7 @@ studio.scene("the picture is saved as SVG and as PNG", {}, async (page) => {
 });
 
 studio.scene("the line for a terminal and the configuration file ask for the same path", {}, async (page) => {
-  await certified(page);
+  await openBuiltin(page, "narrow-junction");
   const planner = await openPanel(page, "planner");
   const seed = planner.getByLabel("Seed", { exact: true });
   await replanned(page, async () => {

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { nOccupied, openHall, paint } from "./hall.mjs";
-import { answered, answeredWith, certified, openPanel, replanned, see, until, useStudio } from "./studio.mjs";
+import { answered, answeredWith, certified, openBuiltin, openPanel, replanned, see, until, useStudio } from "./studio.mjs";
 
 const studio = useStudio();
 
@@ -36,9 +36,9 @@ async function openedBy(page, link) {
 }
 
 studio.scene("a link restores map, request, configuration and seed of both plans", {}, async (page) => {
-  await certified(page);
+  await openBuiltin(page, "narrow-junction");
   await page.locator(".map-handle[data-end=goal]").first().focus();
-  await replanned(page, () => page.keyboard.press("Shift+ArrowDown"));
+  await replanned(page, () => page.keyboard.press("ArrowDown"));
   const planner = await openPanel(page, "planner");
   const seed = planner.getByLabel("Seed", { exact: true });
   await replanned(page, async () => {

@@ -25,7 +25,7 @@ const BEGINNING: State = {
   step: null,
   hoverM: null,
   driveS: null,
-  layers: { swept: false, pheromone: true, ants: true, clearance: true },
+  layers: { swept: true, pheromone: true, ants: true, clearance: true },
   error: null,
 };
 

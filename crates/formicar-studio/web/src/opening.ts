@@ -11,8 +11,8 @@ import type { Strokes } from "./strokes";
 /** A scene whole, or a map with its own vehicle and one of its requests. */
 export type Wanted = { map: MapChoice; requestId?: string } & Partial<Scene>;
 
-/** A request that ants die on and hybrid A* has to work for: there is something to see. */
-const FIRST: Wanted = { map: { builtin: "neighborhood" }, requestId: "into-dead-end" };
+/** A request with a path at once, and ants and hybrid A* that go on looking: there is something to see. */
+const FIRST: Wanted = { map: { builtin: "neighborhood" }, requestId: "into-alley" };
 const FIRST_PLANNER = "formicar";
 /** Planners that drive, and what walks over cells where a point is to be planned for. */
 const DRIVING_PLANNERS = ["formicar", "hybrid-astar"];

@@ -39,7 +39,7 @@ export const QUANTITIES: readonly Quantity[] = [
     unit: "m",
     of: ({ clearance }) => clearance,
     limit: () => 0,
-    text: (value) => fixed(value, 2),
+    text: (value) => fixed(value, value < 0.1 ? 3 : 2),
     isSigned: false,
   },
 ];
