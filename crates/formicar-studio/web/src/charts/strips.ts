@@ -2,7 +2,7 @@
 
 import { h } from "../dom";
 import { degrees, fixed, metres } from "../format";
-import type { PoseRecord } from "../protocol";
+import type { Answer, PoseRecord } from "../protocol";
 import { answerOf, posesOf, shownSlot } from "../state";
 import type { State, Store } from "../store";
 import { pointAt } from "../trace";
@@ -70,7 +70,8 @@ class Strips {
     this.empty.hidden = poses.length > 0;
     if (poses === this.poses) return;
     this.poses = poses;
-    for (const strip of this.strips) strip.show(poses, state.vehicle);
+    const drawn = withTightest(poses, answerOf(slot));
+    for (const strip of this.strips) strip.show(drawn, state.vehicle);
     this.element.setAttribute("aria-valuemin", "0");
     this.element.setAttribute("aria-valuemax", fixed(this.length, 2));
   }
@@ -132,4 +133,14 @@ function poseNear(poses: readonly PoseRecord[], at: number): PoseRecord | null {
 
 function inWords({ s, curvature, steer, clearance }: PoseRecord): string {
   return `${metres(s)}: curvature ${fixed(curvature, 3)} per metre, steering ${degrees(steer)}, clearance ${metres(clearance)}`;
+}
+
+/** The sampled poses, and between them the tightest place as the judge found it. */
+function withTightest(poses: PoseRecord[], answer: Answer | null): PoseRecord[] {
+  const { tightest_s_m: s, min_clearance_m: clearance } = answer?.certificate ?? {};
+  if (typeof s !== "number" || typeof clearance !== "number") return poses;
+  const next = poses.findIndex((pose) => pose.s >= s);
+  const pose = poses[next];
+  if (pose === undefined) return poses;
+  return poses.toSpliced(next, 0, { ...pose, s, clearance });
 }
