@@ -53,6 +53,8 @@ pub(crate) fn run(args: &StudioArgs) -> Result<Ending, Failure> {
         limits: Limits {
             max_cells: args.max_cells,
             max_upload_bytes: args.max_upload * MIB,
+            // Maps are sent whole.
+            max_unsent_bytes: limits.max_unsent_bytes.max(args.max_cells),
             max_plans: args.plans.unwrap_or(limits.max_plans),
             ..limits
         },
