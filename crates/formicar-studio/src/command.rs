@@ -1,6 +1,8 @@
 //! A request as a line for a terminal and as a configuration file.
 
-use formicar::planner::{Answer, PlannerConfig};
+use formicar::planner::{Answer, PlannerConfig, RequestDocument};
+use formicar::scenario::CurvatureMode;
+use serde::Serialize;
 use serde_json::Value as Json;
 
 /// The configuration file of an answer.
@@ -10,33 +12,58 @@ pub(crate) fn toml(config: &PlannerConfig) -> String {
 
 /// The command that asks the same, where the map is a built-in or the file `map`, and the vehicle
 /// a preset or the file `vehicle.json`.
-pub(crate) fn line(answer: &Answer, map: &str, seed: u64) -> String {
+pub(crate) fn line(answer: &Answer, request: &RequestDocument, map: &str, seed: u64) -> String {
     let provenance = &answer.provenance;
-    let mut words = vec!["formicar plan --map".to_owned(), quoted(map)];
     let vehicle = match provenance.vehicle.name.as_str() {
         "own" => "vehicle.json",
         name => name,
     };
-    words.push(format!("--vehicle {}", quoted(vehicle)));
-    let request = provenance.request.as_ref();
-    let request = request.and_then(|request| serde_json::to_value(request).ok());
-    for (key, flag) in [("start", "--start"), ("goal", "--goal")] {
-        let pose = request.as_ref().and_then(|request| request[key].as_array());
-        let numbers = pose.map(|pose| pose.iter().map(ToString::to_string).collect::<Vec<_>>());
-        words.extend(numbers.map(|numbers| format!("{flag}={}", numbers.join(","))));
-    }
-    for (key, flag, default) in [
-        ("motion", "--motion", "reverse"),
-        ("start_heading", "--start-heading", "exact"),
-        ("goal_heading", "--goal-heading", "exact"),
-    ] {
-        let word = request.as_ref().and_then(|request| request[key].as_str());
-        let other = word.filter(|&word| word != default);
-        words.extend(other.map(|word| format!("{flag} {word}")));
-    }
+    let mut words = vec![format!(
+        "formicar plan --map {} --vehicle {}",
+        quoted(map),
+        quoted(vehicle)
+    )];
+    words.extend(asked(request));
     words.push(format!("--planner {} --seed {seed}", answer.planner));
     words.push(settings(&provenance.config));
     words.join(" ").trim_end().to_owned()
+}
+
+/// The flags of a request; what it leaves out is left out here.
+fn asked(request: &RequestDocument) -> Vec<String> {
+    let pose = |flag: &str, [x, y, heading]: [f64; 3]| format!("{flag}={x:?},{y:?},{heading:?}");
+    let goals = request.goal.into_iter();
+    let goals = goals.chain(request.goals.iter().flatten().copied());
+    let tolerance = request.goal_tolerance;
+    let curvature = request.curvature.map(|curvature| match curvature {
+        CurvatureMode::Arcs => String::new(),
+        CurvatureMode::Continuous(rate) => rate.max_rate_per_m2.map_or_else(
+            || "--continuous-curvature".to_owned(),
+            |rate| format!("--continuous-curvature={rate}"),
+        ),
+    });
+    let flags = [
+        word("--motion", request.motion),
+        word("--start-heading", request.start_heading),
+        word("--goal-heading", request.goal_heading),
+        tolerance.map(|t| format!("--goal-tolerance={},{}", t.xy_m, t.yaw_rad)),
+        curvature.filter(|flag| !flag.is_empty()),
+        request.deadline_ms.map(|ms| format!("--deadline {ms}")),
+        request.budget_steps.map(|n| format!("--budget {n}")),
+    ];
+    let start = request.start.map(|start| pose("--start", start));
+    let goals = goals.map(|goal| pose("--goal", goal));
+    start
+        .into_iter()
+        .chain(goals)
+        .chain(flags.into_iter().flatten())
+        .collect()
+}
+
+/// A flag whose value is a word.
+fn word(flag: &str, value: Option<impl Serialize>) -> Option<String> {
+    let word = serde_json::to_value(value?).ok()?;
+    Some(format!("{flag} {}", word.as_str()?))
 }
 
 /// What makes the defaults of a planner its configuration: single keys where that suffices.
@@ -96,6 +123,17 @@ mod tests {
         assert_eq!(settings(&config), "--set colony.n_ants=17");
         config.colony = PlannerConfig::of(PlannerName::MaxMin).colony;
         assert_eq!(settings(&config), "--config planner.toml");
+    }
+
+    #[test]
+    fn all_that_was_asked_is_said() {
+        let request = r#"{"start": [1, 2, 0], "goal": [3.5, -4, 1], "motion": "forward",
+            "goal_heading": "any", "goal_tolerance": {"xy": 0.2, "yaw": 0.1}, "deadline_ms": 500,
+            "budget_steps": 900, "curvature": {"continuous": {"max_rate_per_m2": 0.5}}}"#;
+        let request: RequestDocument = serde_json::from_str(request).unwrap();
+        let said = "--start=1.0,2.0,0.0 --goal=3.5,-4.0,1.0 --motion forward --goal-heading any \
+            --goal-tolerance=0.2,0.1 --continuous-curvature=0.5 --deadline 500 --budget 900";
+        assert_eq!(asked(&request).join(" "), said);
     }
 
     #[test]

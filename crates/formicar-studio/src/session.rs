@@ -227,7 +227,7 @@ impl Session {
                 .filter(|_| order.watch)
                 .map_or_else(StagesRecord::default, stages_record),
             tightest: done.tightest(ground),
-            cli: command::line(&done.answer, ground.file(), order.seed),
+            cli: command::line(&done.answer, &order.request, ground.file(), order.seed),
             toml: command::toml(&done.answer.provenance.config),
         };
         self.outbox.put(answer.text());
