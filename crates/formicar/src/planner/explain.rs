@@ -5,38 +5,54 @@ use crate::progress::Status;
 use crate::scenario::Request;
 use crate::search::{Passage, widest_passage};
 
+/// The widest way from start to goal, if there is one, and its narrowest place.
+type Way = (Option<Passage>, Option<Gap>);
+
 impl Planner {
-    /// Why a search ended without a path, as a sentence.
-    pub(super) fn explain(&self, request: &Request, status: Status, n_steps: u64) -> String {
+    /// Why a search ended without a path: as a sentence, and in numbers.
+    pub(super) fn explain(
+        &self,
+        request: &Request,
+        status: Status,
+        n_steps: u64,
+    ) -> (String, Explanation) {
+        let way = match status {
+            Status::NoPath | Status::BudgetExhausted | Status::TimedOut => self.passage(request),
+            // Who cancels waits for nothing.
+            _ => None,
+        };
         let deadline_ms = request.deadline.map_or(0.0, |d| d.as_secs_f64() * 1e3);
-        match status {
-            Status::NoPath => self.explain_no_path(request, n_steps),
+        let gap = way.as_ref().and_then(|way| way.1);
+        let narrowest = gap.as_ref().map_or(String::new(), |gap| self.narrowest(gap));
+        let sentence = match status {
+            Status::NoPath => self.explain_no_path(way, &narrowest, n_steps),
             Status::BudgetExhausted => {
                 let hint = match self.config.planner {
                     PlannerName::HybridAstar => "raise the budget and hybrid_astar.max_iterations",
                     _ => "raise the budget",
                 };
-                format!("no path within {n_steps} steps; hint: {hint}")
+                format!("no path within {n_steps} steps{narrowest}; hint: {hint}")
             }
             Status::TimedOut => format!(
-                "no path within the deadline of {deadline_ms:.1} ms ({n_steps} steps); hint: raise it"
+                "no path within the deadline of {deadline_ms:.1} ms ({n_steps} steps){narrowest}; hint: raise it"
             ),
             Status::Cancelled => format!("cancelled after {n_steps} steps"),
             Status::Found | Status::Infeasible => status.name().to_owned(),
-        }
+        };
+        let explanation = Explanation {
+            gap,
+            ..Explanation::default()
+        };
+        (sentence, explanation)
     }
 
-    fn explain_no_path(&self, request: &Request, n_steps: u64) -> String {
-        let Some((passage, gap)) = self.passage(request) else {
+    fn explain_no_path(&self, way: Option<Way>, narrowest: &str, n_steps: u64) -> String {
+        let Some((passage, _)) = way else {
             return "an end lies off the map".to_owned();
         };
         if let (Some(sentence), _) = self.explain_passage(passage.as_ref()) {
             return sentence;
         }
-        let Some(Gap { x, y, gap_m, .. }) = gap else {
-            return Status::NoPath.name().to_owned();
-        };
-        let width_m = self.vehicle.width_m();
         let planner = self.config.planner;
         let hint = match planner {
             PlannerName::HybridAstar => {
@@ -45,25 +61,21 @@ impl Planner {
             _ => "hint: hybrid-astar uses the true footprint",
         };
         format!(
-            "{} searched all it can reach ({n_steps} steps); the widest way is about {gap_m:.2} m at its narrowest, ({x:.2}, {y:.2}), the vehicle {width_m:.2} m wide, so turning is what fails; {hint}",
+            "{} searched all it can reach ({n_steps} steps){narrowest}, so turning is what fails; {hint}",
             planner.name(),
         )
     }
 
-    /// What a search that looked at all it can reach tells in numbers: the narrowest place.
-    pub(super) fn explanation(&self, request: &Request, status: Status) -> Explanation {
-        let gap = match status {
-            Status::NoPath => self.passage(request).and_then(|(_, gap)| gap),
-            _ => None,
-        };
-        Explanation {
-            gap,
-            ..Explanation::default()
-        }
+    /// The narrowest place of the widest way, as a clause.
+    fn narrowest(&self, gap: &Gap) -> String {
+        format!(
+            "; the widest way is about {:.2} m at its narrowest, ({:.2}, {:.2}), the vehicle {:.2} m wide",
+            gap.gap_m, gap.x, gap.y, gap.vehicle_width_m
+        )
     }
 
-    /// The widest way from start to goal, if there is one, and its narrowest place.
-    fn passage(&self, request: &Request) -> Option<(Option<Passage>, Option<Gap>)> {
+    /// The widest way of a request; none where an end lies off the map.
+    fn passage(&self, request: &Request) -> Option<Way> {
         let frame = self.obstacles.frame();
         let from = frame.cell_at(request.start.position())?;
         let to = frame.cell_at(request.goal.position())?;

@@ -159,12 +159,18 @@ impl Planner {
 
     /// A search that ended without a path, explained.
     fn give_up(&self, request: &Request, ended: Ended, n_steps: u64) -> NotFound {
-        let explained = || self.explain(request, ended.status, n_steps);
-        let measured = || Box::new(self.explanation(request, ended.status));
+        let (reason, explanation) = match (ended.reason, ended.explanation) {
+            (Some(reason), Some(explanation)) => (reason, *explanation),
+            (reason, explanation) => {
+                let (sentence, measured) = self.explain(request, ended.status, n_steps);
+                let explanation = explanation.map_or(measured, |told| *told);
+                (reason.unwrap_or(sentence), explanation)
+            }
+        };
         NotFound {
             status: ended.status,
-            reason: ended.reason.unwrap_or_else(explained),
-            explanation: *ended.explanation.unwrap_or_else(measured),
+            reason,
+            explanation,
             refused: None,
             stages: *ended.stages,
             n_steps,

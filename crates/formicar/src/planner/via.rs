@@ -146,11 +146,11 @@ impl Journey<'_, '_> {
             Err(ended) => ended,
         };
         let n_steps = self.limits.n_steps();
-        let explained = || self.planner.explain(request, ended.status, n_steps);
-        let reason = ended.reason.clone().unwrap_or_else(explained);
+        let (explained, explanation) = self.planner.explain(request, ended.status, n_steps);
+        let reason = ended.reason.as_ref().unwrap_or(&explained);
         let explanation = Explanation {
             leg: Some(leg + 1),
-            ..self.planner.explanation(request, ended.status)
+            ..explanation
         };
         Ok(Err(Ended {
             reason: Some(format!("{}: {reason}", leg_name(self.request, leg))),
