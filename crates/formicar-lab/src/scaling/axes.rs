@@ -14,6 +14,8 @@ const RESOLUTION_M: f64 = 0.2;
 const DENSITY: f64 = 0.02;
 /// Columns and rows, where they are not what grows.
 const SIDE: usize = 400;
+/// Ants of an iteration where threads grow: so many that they take most of a query.
+const N_ANTS_OF_THREADS: u32 = 640;
 /// Pairs of poses of which the farthest apart are asked.
 const N_PAIRS: usize = 8;
 /// Seed of the maps and the ends.
@@ -76,7 +78,9 @@ impl Quantity {
             // Columns and rows.
             Self::Cells => (
                 &[100.0, 180.0, 316.0],
-                &[100.0, 180.0, 316.0, 562.0, 1000.0, 1778.0, 3162.0],
+                &[
+                    100.0, 180.0, 316.0, 562.0, 1000.0, 1778.0, 3162.0, 5623.0, 10_000.0,
+                ],
             ),
             Self::Density => (&[0.005, 0.01, 0.02], &[0.005, 0.01, 0.02, 0.03, 0.04, 0.06]),
             // Times the vehicle of Lei & Zheng 2020.
@@ -118,7 +122,11 @@ impl Quantity {
             }
             _ => value,
         };
-        let n_ants = (self == Self::Ants).then_some(value as u32);
+        let n_ants = match self {
+            Self::Ants => Some(value as u32),
+            Self::Threads => Some(N_ANTS_OF_THREADS),
+            _ => None,
+        };
         Ok(Point {
             x,
             ground: ground(side, density, vehicle)?,
