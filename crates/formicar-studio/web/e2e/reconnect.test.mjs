@@ -36,12 +36,8 @@ studio.scene("what was painted on a built-in map is still there", { expects }, a
 studio.scene("a map of one's own that the server has forgotten", { expects }, async (page) => {
   await openHall(page);
   await restart(page);
-  const told = await until(page, "something is told", () => {
-    const { slots, error } = window.formicar.store.state;
-    return error ?? slots.a.plan?.end?.answer.status;
-  });
-  assert.ok(told);
-  await see(page, ({ map }) => map.name);
+  await page.getByRole("alert").filter({ hasText: "drop its file on the page" }).waitFor();
+  assert.ok(await see(page, ({ map }) => map.values.some((value) => value === 100)), "it is still drawn");
 });
 
 /** Ends the server, sees that the page tells, and starts it again at the same port. */

@@ -27,7 +27,7 @@ const CHROMIUM_FLAGS = [
 ];
 
 /** Longest wait for anything: only a test that fails takes so long. */
-export const PATIENCE_MS = Number(process.env.PATIENCE_MS ?? 30_000);
+export const PATIENCE_MS = Number(process.env.PATIENCE_MS ?? 60_000);
 const LOOK_EVERY_MS = 40;
 export const DESKTOP = { width: 1280, height: 720 };
 export const PHONE = { width: 390, height: 844 };
