@@ -11,6 +11,7 @@ use formicar::progress::Status;
 use formicar::scenario::{GoalTolerance, Request, ViaPoint};
 use formicar::validation::{CURVATURE_TOLERANCE, judge_path};
 use formicar::vehicle::Vehicle;
+use std::f64::consts::PI;
 
 fn ask(map: &OccupancyGrid, vehicle: Vehicle, request: &Request) -> Outcome {
     Planner::new(map, vehicle, PlannerConfig::default())
@@ -71,6 +72,35 @@ fn a_crack_is_too_narrow_and_no_step_is_searched() {
         "{}",
         failure.reason
     );
+}
+
+#[test]
+fn a_search_that_is_cut_short_says_how_wide_the_widest_way_is() {
+    let (_, request) = halls();
+    let doored: Vec<String> = (0..HALLS.len())
+        .map(|row| HALLS[if (2..6).contains(&row) { 3 } else { 0 }].to_owned())
+        .collect();
+    let rows: Vec<&str> = doored.iter().map(String::as_str).collect();
+    let map = OccupancyGrid::from_rows(&rows, 0.25).expect("rows");
+    // The goal faces the wall that it stands behind.
+    let hurried = Request {
+        budget_steps: Some(2),
+        ..request.with_goal(Pose2::new(3.4, 0.5, PI))
+    };
+    let config = PlannerConfig::of(PlannerName::HybridAstar);
+    let planner = Planner::new(&map, Vehicle::warehouse_amr(), config);
+    let outcome = planner
+        .expect("valid parameters")
+        .plan(&hurried, Seed(1), &mut ());
+    let Ok(Outcome::NotFound(failure)) = outcome else {
+        panic!("found within two steps");
+    };
+    assert_eq!(failure.status, Status::BudgetExhausted);
+    let gap = failure.explanation.gap.expect("a gap");
+    assert!((gap.gap_m - 1.0).abs() < 0.26, "{gap:?}");
+    assert!(gap.gap_m > gap.vehicle_width_m);
+    let said = format!("{:.2} m at its narrowest", gap.gap_m);
+    assert!(failure.reason.contains(&said), "{}", failure.reason);
 }
 
 #[test]

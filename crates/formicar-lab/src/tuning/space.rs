@@ -314,3 +314,57 @@ fn known_group(group: &str, leaves: &[Leaf]) -> Result<()> {
         groups.join(", ")
     );
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use formicar::planner::PlannerName;
+    use serde_json::json;
+
+    /// Counts and costs that may be as large as they like.
+    const WITHOUT_MAXIMUM: [&str; 4] = [
+        "max_steps",
+        "stall_iterations",
+        "stall_generations",
+        "target_cost",
+    ];
+
+    #[test]
+    fn every_number_has_the_range_that_is_checked() {
+        let mut wrong = Vec::new();
+        for planner in PlannerName::ALL {
+            let base = serde_json::to_value(PlannerConfig::of(planner)).unwrap();
+            for leaf in leaves(&base).iter().filter(|leaf| leaf.value.is_number()) {
+                let bound = |name: &str| leaf.schema.get(name).and_then(Value::as_f64);
+                let name = leaf.key.rsplit('.').next().unwrap_or(&leaf.key);
+                let is_open = WITHOUT_MAXIMUM.contains(&name);
+                let beyond = [
+                    bound("minimum")
+                        .or(bound("exclusiveMinimum"))
+                        .map(|low| low - 1.0),
+                    bound("maximum").map(|high| high + 1.0),
+                ];
+                for value in beyond.iter().take(if is_open { 1 } else { 2 }) {
+                    if !value.is_some_and(|value| is_refused(&base, &leaf.key, value)) {
+                        wrong.push(format!("{} = {value:?}", leaf.key));
+                    }
+                }
+            }
+        }
+        wrong.sort();
+        wrong.dedup();
+        assert!(wrong.is_empty(), "without range or not refused: {wrong:#?}");
+    }
+
+    /// Whether a document with another value in it is no configuration.
+    fn is_refused(base: &Value, key: &str, value: f64) -> bool {
+        let mut changed = base.clone();
+        let place = changed.pointer_mut(&pointer(key)).unwrap();
+        *place = if place.is_u64() {
+            json!(value as i64)
+        } else {
+            json!(value)
+        };
+        serde_json::from_value::<PlannerConfig>(changed).map_or(true, |c| c.check().is_err())
+    }
+}

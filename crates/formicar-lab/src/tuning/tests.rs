@@ -131,9 +131,9 @@ fn what_cannot_be_tuned_is_refused_with_what_can() {
     let refused = [
         (
             faco,
-            "chords.distance.eta",
+            "chords.stopping.target_cost",
             None,
-            "no finite range; hint: --range chords.distance.eta=LOW..HIGH",
+            "no finite range; hint: --range chords.stopping.target_cost=LOW..HIGH",
         ),
         (
             faco,

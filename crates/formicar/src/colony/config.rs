@@ -22,10 +22,13 @@ use thiserror::Error;
 #[serde(default, deny_unknown_fields)]
 pub struct ColonyConfig {
     /// M: ants in each iteration, from 1 to 1 000 000.
+    #[schemars(range(min = 1, max = 1_000_000))]
     pub n_ants: u32,
     /// N: iterations at most, from 1 to 1 000 000.
+    #[schemars(range(min = 1, max = 1_000_000))]
     pub n_iterations: u32,
     /// Weight of the pheromone as an exponent, from 0 to 10.
+    #[schemars(range(min = 0.0, max = 10.0))]
     pub alpha: f64,
     /// Steps that an ant may take.
     pub directions: Directions,
@@ -108,8 +111,10 @@ pub struct Stopping {
     /// Iterations without a better path after which the colony stops; 0 for never.
     pub stall_iterations: u32,
     /// How much cheaper a path must be to count as better, in shares of the cost, from 0 to 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub least_gain: f64,
     /// Cost at which a path is good enough, at least 0; 0 for none.
+    #[schemars(range(min = 0.0))]
     pub target_cost: f64,
 }
 

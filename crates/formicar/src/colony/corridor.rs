@@ -24,10 +24,12 @@ pub enum Corridor {
 #[serde(default, deny_unknown_fields)]
 pub struct RatioCorridor {
     /// Length of the ways that the corridor holds, in shortest ways, from 1 to 10.
+    #[schemars(range(min = 1.0, max = 10.0))]
     pub ratio: f64,
     /// The most that a step of length c may lose, c + S' - S cells, from 0 to 64; no step between
     /// neighbors loses more than 2.83. Below 1 every such step leads nearer to the goal, and no
     /// ant gets stuck.
+    #[schemars(range(min = 0.0, max = 64.0))]
     pub step_loss_cells: f64,
 }
 

@@ -10,10 +10,13 @@ use std::f64::consts::SQRT_2;
 #[serde(default, deny_unknown_fields)]
 pub struct PathCost {
     /// A: weight of the length in cells, from 1e-6 to 1e6.
+    #[schemars(range(min = 1e-6, max = 1e6))]
     pub length_weight: f64,
     /// Length of a diagonal step in cells, from 1 to 2; the square root of 2 is exact.
+    #[schemars(range(min = 1.0, max = 2.0))]
     pub diagonal_length: f64,
     /// B: weight of a change of direction, from 0 to 1e6.
+    #[schemars(range(min = 0.0, max = 1e6))]
     pub turn_weight: f64,
 }
 

@@ -18,10 +18,13 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct SteeringCost {
     /// lambda1: weight of steering, from 0 to 1e6.
+    #[schemars(range(min = 0.0, max = 1e6))]
     pub steering_weight: f64,
     /// lambda2: weight of the length, from 1e-6 to 1e6.
+    #[schemars(range(min = 1e-6, max = 1e6))]
     pub length_weight: f64,
     /// epsilon: factor on a corner, from 0 to 1e6.
+    #[schemars(range(min = 0.0, max = 1e6))]
     pub epsilon: f64,
 }
 

@@ -23,7 +23,7 @@ impl Planner {
         };
         let deadline_ms = request.deadline.map_or(0.0, |d| d.as_secs_f64() * 1e3);
         let gap = way.as_ref().and_then(|way| way.1);
-        let narrowest = gap.as_ref().map_or(String::new(), |gap| self.narrowest(gap));
+        let narrowest = gap.as_ref().map_or(String::new(), narrowest);
         let sentence = match status {
             Status::NoPath => self.explain_no_path(way, &narrowest, n_steps),
             Status::BudgetExhausted => {
@@ -63,14 +63,6 @@ impl Planner {
         format!(
             "{} searched all it can reach ({n_steps} steps){narrowest}, so turning is what fails; {hint}",
             planner.name(),
-        )
-    }
-
-    /// The narrowest place of the widest way, as a clause.
-    fn narrowest(&self, gap: &Gap) -> String {
-        format!(
-            "; the widest way is about {:.2} m at its narrowest, ({:.2}, {:.2}), the vehicle {:.2} m wide",
-            gap.gap_m, gap.x, gap.y, gap.vehicle_width_m
         )
     }
 
@@ -114,4 +106,12 @@ impl Planner {
             vehicle_width_m: self.vehicle.width_m(),
         }
     }
+}
+
+/// The narrowest place of the widest way, as a clause.
+fn narrowest(gap: &Gap) -> String {
+    format!(
+        "; the widest way is about {:.2} m at its narrowest, ({:.2}, {:.2}), the vehicle {:.2} m wide",
+        gap.gap_m, gap.x, gap.y, gap.vehicle_width_m
+    )
 }

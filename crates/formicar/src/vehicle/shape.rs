@@ -89,7 +89,9 @@ impl Vehicle {
     /// Measures that are missing, out of range or contradict each other.
     pub fn new(parameters: VehicleParameters) -> Result<Self, VehicleError> {
         check_ranges(&parameters)?;
-        let footprint = body(&parameters)?.grown(parameters.safety_margin_m.unwrap_or(0.0));
+        let body = body(&parameters)?;
+        check_track(&parameters, &body)?;
+        let footprint = body.grown(parameters.safety_margin_m.unwrap_or(0.0));
         let max_curvature_per_m = 1.0 / turning_radius(&parameters)?;
         Ok(Self {
             parameters,
@@ -229,6 +231,19 @@ fn check_ranges(p: &VehicleParameters) -> Result<(), VehicleError> {
     };
     check(&positive, true, "finite, above 0 and below 1e6")?;
     check(&not_negative, false, "finite, at least 0 and below 1e6")
+}
+
+/// Wheels that stick out of the body would touch what nobody looks for.
+fn check_track(p: &VehicleParameters, body: &ConvexPolygon) -> Result<(), VehicleError> {
+    let (low, high) = body.bounds();
+    match p.track_width_m {
+        Some(value) if value > high.y - low.y => Err(VehicleError::OutOfRange {
+            name: "track_width_m",
+            value,
+            range: "at most the width of the body",
+        }),
+        _ => Ok(()),
+    }
 }
 
 fn body(p: &VehicleParameters) -> Result<ConvexPolygon, VehicleError> {
@@ -391,6 +406,19 @@ mod tests {
                 "{bad}"
             );
         }
+    }
+
+    #[test]
+    fn refuses_wheels_beside_the_body() {
+        let wide = |track_width_m| {
+            let track_width_m = Some(track_width_m);
+            Vehicle::new(VehicleParameters {
+                track_width_m,
+                ..car()
+            })
+        };
+        assert!(wide(1.8).is_ok());
+        assert!(matches!(wide(1.9), Err(VehicleError::OutOfRange { .. })));
     }
 
     #[test]

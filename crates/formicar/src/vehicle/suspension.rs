@@ -17,24 +17,34 @@ use std::collections::VecDeque;
 #[serde(default, deny_unknown_fields)]
 pub struct SuspensionParameters {
     /// Mass carried by the suspension, from 0 to 1e6 kg.
+    #[schemars(range(min = 0.0, max = 1e6))]
     pub mass_kg: f64,
     /// Deflection per lateral force, from 0 (rigid) to 1 m/N: the inverse of the stiffness k.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub compliance_m_per_n: f64,
     /// Damping over stiffness, c / k, from 0 to 1e3 s^gamma.
+    #[schemars(range(min = 0.0, max = 1e3))]
     pub relaxation: f64,
     /// gamma: order of the damping, above 0 and up to 1; 1 is viscous.
+    #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1.0))]
     pub damping_order: f64,
     /// How far the wheel moves inward per deflection, from 0 to 100.
+    #[schemars(range(min = 0.0, max = 100.0))]
     pub inward_gain: f64,
     /// How far the wheel moves forward per deflection, from -100 to 100.
+    #[schemars(range(min = -100.0, max = 100.0))]
     pub forward_gain: f64,
     /// Speed, from 0 to 100 m/s.
+    #[schemars(range(min = 0.0, max = 100.0))]
     pub speed_mps: f64,
     /// rho: order of the heading's derivative, above 0 and up to 1; 1 has no memory.
+    #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1.0))]
     pub heading_order: f64,
     /// Order of the arc length's derivative, above 0 and up to 1; 1 has no memory.
+    #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1.0))]
     pub arc_order: f64,
     /// Samples that are remembered, from 1 to 10 000.
+    #[schemars(range(min = 1, max = 10_000))]
     pub window: u32,
 }
 

@@ -190,7 +190,7 @@ function ratio(a: number, b: number): string {
   if (a <= 0 || b <= 0) return "";
   const percent = (100 * (b - a)) / a;
   return Math.abs(percent) < 100
-    ? ` (${percent > 0 ? "+" : ""}${fixed(percent, 1)} %)`
+    ? ` (${percent > 0 ? "+" : ""}${fixed(percent, 1)}\u00a0%)`
     : ` (\u00d7${fixed(b / a, 1)})`;
 }
 

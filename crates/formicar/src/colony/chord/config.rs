@@ -24,20 +24,26 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct ChordConfig {
     /// K: ants in each generation, from 1 to 1 000 000.
+    #[schemars(range(min = 1, max = 1_000_000))]
     pub n_ants: u32,
     /// `N_max`: generations at most, from 1 to 1 000 000.
+    #[schemars(range(min = 1, max = 1_000_000))]
     pub n_iterations: u32,
     /// Chebyshev distance of a step's end in cells, from 1 (eight neighbors) to 16.
+    #[schemars(range(min = 1, max = 16))]
     pub reach: u32,
     /// By how many turning radii obstacles are grown beyond half the vehicle's width for the
     /// shortest path that guides the ants, the first that gives a drivable path; each from 0 to
     /// 10, at least one.
     pub growth_radii: Vec<f64>,
     /// beta1: exponent of the pheromone, from 0 to 10.
+    #[schemars(range(min = 0.0, max = 10.0))]
     pub pheromone_exponent: f64,
     /// beta2: exponent of the corner term, from 0 to 10.
+    #[schemars(range(min = 0.0, max = 10.0))]
     pub corner_exponent: f64,
     /// beta3: exponent of the distance term, from 0 to 10.
+    #[schemars(range(min = 0.0, max = 10.0))]
     pub distance_exponent: f64,
     /// Which steps the body has room for.
     pub safety: Safety,

@@ -25,6 +25,7 @@ pub enum CornerTerm {
 #[serde(default, deny_unknown_fields)]
 pub struct CornerRule {
     /// epsilon, from 0 to 1e6.
+    #[schemars(range(min = 0.0, max = 1e6))]
     pub epsilon: f64,
     /// What G is.
     pub straightness: StraightnessUse,

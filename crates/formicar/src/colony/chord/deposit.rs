@@ -15,10 +15,13 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct SpreadDeposit {
     /// kappa1: weight of the spread of turns, from 0 to 1e6.
+    #[schemars(range(min = 0.0, max = 1e6))]
     pub spread_weight: f64,
     /// kappa2: weight of the length, from 0 to 1e6.
+    #[schemars(range(min = 0.0, max = 1e6))]
     pub length_weight: f64,
     /// `P_h`: pheromone, from 1e-6 to 1e6.
+    #[schemars(range(min = 1e-6, max = 1e6))]
     pub pheromone: f64,
     /// Which ants deposit.
     pub by: Depositor,

@@ -23,6 +23,7 @@ pub enum DistanceTerm {
 #[serde(default, deny_unknown_fields)]
 pub struct KnownLengths {
     /// eta, from 0 to 1e6.
+    #[schemars(range(min = 0.0, max = 1e6))]
     pub eta: f64,
 }
 

@@ -27,6 +27,7 @@ pub enum Safety {
 #[serde(default, deny_unknown_fields)]
 pub struct FootprintSafety {
     /// `L_tr`: margin around the body in cells, from 0 to 64.
+    #[schemars(range(min = 0.0, max = 64.0))]
     pub margin_cells: f64,
 }
 

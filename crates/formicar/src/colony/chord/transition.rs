@@ -26,12 +26,16 @@ pub enum ChordTransition {
 #[serde(default, deny_unknown_fields)]
 pub struct FractionalTransition {
     /// a1: order for corners, from 0 (none) to 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub corner_order: f64,
     /// a2: order for the distance, from 0 (none) to 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub distance_order: f64,
     /// Steps that are remembered, the present one among them, from 1 to 64.
+    #[schemars(range(min = 1, max = 64))]
     pub window: u32,
     /// The least share that a derivative leaves, from 1e-6 to 1.
+    #[schemars(range(min = 1e-6, max = 1.0))]
     pub floor: f64,
 }
 

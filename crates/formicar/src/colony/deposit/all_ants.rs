@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct AllAnts {
     /// Q, from 1e-6 to 1e9.
+    #[schemars(range(min = 1e-6, max = 1e9))]
     pub q: f64,
 }
 

@@ -10,8 +10,11 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct BestAnt {
     /// Q, from 1e-6 to 1e9.
+    #[schemars(range(min = 1e-6, max = 1e9))]
     pub q: f64,
-    /// Every so many iterations the best so far deposits; 1 for always, 0 for never.
+    /// Every so many iterations the best so far deposits; 1 for always, 0 for never, at most
+    /// 1 000 000.
+    #[schemars(range(min = 0, max = 1_000_000))]
     pub best_so_far_every: u32,
 }
 

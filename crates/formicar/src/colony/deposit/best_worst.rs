@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct BestWorst {
     /// Q, from 1e-6 to 1e9.
+    #[schemars(range(min = 1e-6, max = 1e9))]
     pub q: f64,
 }
 

@@ -11,8 +11,10 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct Elitist {
     /// Q, from 1e-6 to 1e9.
+    #[schemars(range(min = 1e-6, max = 1e9))]
     pub q: f64,
     /// e as a share of the ants of the iteration, from 0 to 10.
+    #[schemars(range(min = 0.0, max = 10.0))]
     pub elite_share: f64,
 }
 

@@ -13,8 +13,10 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct Fittest {
     /// Q, from 1e-6 to 1e9.
+    #[schemars(range(min = 1e-6, max = 1e9))]
     pub q: f64,
     /// Share of the ants that arrived, from 0 to 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub share: f64,
 }
 

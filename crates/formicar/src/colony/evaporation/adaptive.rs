@@ -12,10 +12,13 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct Adaptive {
     /// Share that evaporates at first, from 0 to 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub rho: f64,
     /// What it is multiplied with by an iteration without a better path, from 0.01 to 1.
+    #[schemars(range(min = 0.01, max = 1.0))]
     pub decay: f64,
     /// The least share, from 0 to 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub rho_min: f64,
 }
 

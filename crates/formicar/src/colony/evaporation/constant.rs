@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct Constant {
     /// Share that evaporates, from 0 to 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub rho: f64,
 }
 

@@ -14,12 +14,15 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct Generational {
     /// zeta(0): share that evaporates at first, from 0 to 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub rho: f64,
     /// a: what is left of that share in the last generation, from 0.001 to 1.
+    #[schemars(range(min = 0.001, max = 1.0))]
     pub decay: f64,
     /// Whether shares are multiplied on from generation to generation.
     pub recursion: Recursion,
     /// The least share, from 0 to 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub rho_min: f64,
 }
 

@@ -14,12 +14,16 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct PoissonEvaporation {
     /// Mean of the distribution, from 1e-3 to 1000.
+    #[schemars(range(min = 1e-3, max = 1000.0))]
     pub lambda: f64,
     /// A: depth of the trough, negative, from -100 to 100.
+    #[schemars(range(min = -100.0, max = 100.0))]
     pub amplitude: f64,
     /// B: the share far from the trough, from 0 to 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub offset: f64,
     /// Iterations to a unit of k, from 1e-3 to 1e6.
+    #[schemars(range(min = 1e-3, max = 1e6))]
     pub stretch: f64,
 }
 

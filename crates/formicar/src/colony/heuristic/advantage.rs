@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct Advantage {
     /// Weight of a cell of detour, from 0 to 100.
+    #[schemars(range(min = 0.0, max = 100.0))]
     pub beta: f64,
 }
 

@@ -14,8 +14,10 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct GoalDistance {
     /// Exponent of eta, from 0 to 100.
+    #[schemars(range(min = 0.0, max = 100.0))]
     pub beta: f64,
     /// The least distance that counts, in cells, from 0.01 to 100.
+    #[schemars(range(min = 0.01, max = 100.0))]
     pub floor_cells: f64,
 }
 

@@ -11,8 +11,10 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct GoalFieldGuidance {
     /// Exponent of lambda, from 0 to 100.
+    #[schemars(range(min = 0.0, max = 100.0))]
     pub gamma: f64,
     /// The least length that counts, in cells, from 0.01 to 100.
+    #[schemars(range(min = 0.01, max = 100.0))]
     pub floor_cells: f64,
 }
 

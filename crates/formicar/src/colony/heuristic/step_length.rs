@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct StepLength {
     /// Exponent of eta, from 0 to 100.
+    #[schemars(range(min = 0.0, max = 100.0))]
     pub beta: f64,
 }
 

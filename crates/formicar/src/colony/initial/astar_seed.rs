@@ -14,8 +14,10 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct AstarSeed {
     /// c: pheromone off the path, from 1e-6 to 1e6 units.
+    #[schemars(range(min = 1e-6, max = 1e6))]
     pub tau: f64,
     /// n: how many times that lies on the path, from 1e-3 to 1e3.
+    #[schemars(range(min = 1e-3, max = 1e3))]
     pub factor: f64,
     /// What a unit is.
     pub unit: PheromoneUnit,

@@ -12,8 +12,10 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct LineGradient {
     /// Pheromone farthest from the line, from 1e-6 to 1e6 units.
+    #[schemars(range(min = 1e-6, max = 1e6))]
     pub tau_min: f64,
     /// Pheromone on the line, from 1e-6 to 1e6 units.
+    #[schemars(range(min = 1e-6, max = 1e6))]
     pub tau_max: f64,
     /// What a unit is.
     pub unit: PheromoneUnit,

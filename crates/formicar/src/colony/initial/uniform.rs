@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct Uniform {
     /// Pheromone, from 1e-6 to 1e6 units.
+    #[schemars(range(min = 1e-6, max = 1e6))]
     pub tau: f64,
     /// What a unit is.
     pub unit: PheromoneUnit,

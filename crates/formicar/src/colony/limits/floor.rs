@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct Floor {
     /// Share of the initial pheromone, from 0 to 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub share: f64,
 }
 

@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct MaxMin {
     /// p, from 1e-6 to 1; 1 leaves no lower limit.
+    #[schemars(range(min = 1e-6, max = 1.0))]
     pub p_best: f64,
 }
 

@@ -14,7 +14,7 @@ export class NumberField implements Field {
   constructor(parts: Parts, isInteger: boolean, isOptional: boolean) {
     const range = rangeOf(parts.schema);
     const take = (value: number | null): void => {
-      const isOff = value !== null && range.isOpen && (value === range.min || value === range.max);
+      const isOff = value !== null && range.excluded.includes(value);
       if (!isOff) parts.change(value !== null && isInteger ? Math.round(value) : value);
     };
     this.input = new NumberInput(

@@ -24,8 +24,8 @@ export type Shape =
 export interface Range {
   min: number | null;
   max: number | null;
-  /** Whether the ends themselves are outside. */
-  isOpen: boolean;
+  /** The ends that are outside themselves. */
+  excluded: readonly (number | undefined)[];
 }
 
 const UNITS: readonly (readonly [string, string])[] = [
@@ -78,14 +78,12 @@ export function isNullable(schema: JsonSchema): boolean {
   return types.includes("null") || (schema.anyOf ?? []).some((option) => option.type === "null");
 }
 
-/** The range of a number: from the schema, or where it states none, from its description, as in
- * "from 0 to 10" or "1 to 10^9". */
+/** The range of a number, and which of its ends are outside it. */
 export function rangeOf(schema: JsonSchema): Range {
-  const min = schema.exclusiveMinimum ?? schema.minimum ?? null;
-  const max = schema.exclusiveMaximum ?? schema.maximum ?? null;
-  const isOpen = schema.exclusiveMinimum !== undefined || schema.exclusiveMaximum !== undefined;
-  if (max !== null) return { min, max, isOpen };
-  return rangeInWords(schema.description ?? "") ?? { min, max, isOpen };
+  const { exclusiveMinimum, exclusiveMaximum } = schema;
+  const min = exclusiveMinimum ?? schema.minimum ?? null;
+  const max = exclusiveMaximum ?? schema.maximum ?? null;
+  return { min, max, excluded: [exclusiveMinimum, exclusiveMaximum] };
 }
 
 export function unitOf(key: string): string {
@@ -173,22 +171,6 @@ function withoutNull(schema: JsonSchema): {
     isOptional: isNullable(schema),
     one: others.length === 1 && one ? one : null,
   };
-}
-
-const NUMBER = String.raw`-?\d+(?:\.\d+)?(?:e-?\d+|\^\d+)?(?: \d{3})*`;
-const IN_WORDS = new RegExp(String.raw`(${NUMBER})(?: \([^)]*\))? to (${NUMBER})(?![\w^])`, "g");
-
-function rangeInWords(text: string): Range | null {
-  const all = [...text.replace(/\n/g, " ").matchAll(IN_WORDS)];
-  const last = all[all.length - 1];
-  if (!last) return null;
-  return { min: numberIn(last[1] ?? ""), max: numberIn(last[2] ?? ""), isOpen: false };
-}
-
-function numberIn(text: string): number {
-  const power = /^(\d+)\^(\d+)$/.exec(text);
-  if (power) return Number(power[1]) ** Number(power[2]);
-  return Number(text.replace(/ /g, ""));
 }
 
 function capitalized(text: string): string {
