@@ -33,11 +33,16 @@ studio.scene("what was painted on a built-in map is still there", { expects }, a
   assert.equal(await nOccupied(page), n);
 });
 
-studio.scene("a map of one's own that the server has forgotten", { expects }, async (page) => {
-  await openHall(page);
+studio.scene("a map of one's own, painted on, that the server has forgotten: it gets it from the page", { expects }, async (page) => {
+  const straight = await openHall(page);
+  await paint(page, [14, 6], [14, 14]);
+  const around = await answeredWith(page, ({ lengthM }) => lengthM > straight.lengthM + 0.1, straight.plan);
+  const map = await see(page, ({ map }) => ({ ...map, values: [...map.values] }));
   await restart(page);
-  await page.getByRole("alert").filter({ hasText: "drop its file on the page" }).waitFor();
-  assert.ok(await see(page, ({ map }) => map.values.some((value) => value === 100)), "it is still drawn");
+  const after = await answered(page, "a", around.plan);
+  assert.ok(after.isCertified, after.reason);
+  assert.equal(after.lengthM, around.lengthM);
+  assert.deepEqual(await see(page, ({ map }) => ({ ...map, values: [...map.values] })), map);
 });
 
 /** Ends the server, sees that the page tells, and starts it again at the same port. */

@@ -18,7 +18,6 @@ import type {
   Request,
   ServerMessage,
   Slot,
-  UploadAnswer,
   VehicleChoice,
   VehicleMessage,
 } from "./protocol";
@@ -27,6 +26,7 @@ import { expose, stats } from "./stats";
 import type { Store } from "./store";
 import { Strokes } from "./strokes";
 import { Past } from "./undo";
+import { uploadMap } from "./uploading";
 import { pageUrl, withToken } from "./urls";
 
 type ErrorMessage = Extract<ServerMessage, { type: "error" }>;
@@ -69,6 +69,7 @@ export class Actions {
         break;
       case "map":
         if (this.opening.came(message, payload)) this.mapOpened();
+        else this.planAll("settle", performance.now());
         break;
       case "vehicle":
         this.vehicleCame(message);
@@ -108,7 +109,7 @@ export class Actions {
     for (const slot of SLOTS) this.planning.forget(slot);
     this.isVehicleAwaited = false;
     if (!isOpen) this.keeping.refuse("the line to the server broke");
-    else if (this.opening.reopen()) this.planAll("settle", performance.now());
+    else this.opening.reopen();
   }
 
   /** Fetches the catalog and opens the scene of the link, or the first one. */
@@ -143,14 +144,8 @@ export class Actions {
 
   /** Uploads files that make up a map, and opens it. */
   async upload(files: File[], resolutionM?: number): Promise<void> {
-    const form = new FormData();
-    for (const file of files) form.append("files", file, file.name);
-    if (resolutionM !== undefined) form.append("resolution_m", String(resolutionM));
     try {
-      const response = await fetch(withToken("api/maps"), { method: "POST", body: form });
-      const answer = (await response.json()) as UploadAnswer;
-      if ("error" in answer) throw new Error(answer.error);
-      this.openMap({ hash: answer.hash });
+      this.openMap({ hash: await uploadMap(files, resolutionM) });
     } catch (error) {
       this.store.set({ error: reason(error) });
     }
@@ -370,11 +365,14 @@ export class Actions {
   private errorCame({ about, message, plan }: ErrorMessage): void {
     // A plan that could not be begun says so where its answer would stand.
     if (plan !== undefined && this.planning.refused(plan, message)) return;
+    if (about === "map" && this.opening.isAwaited) {
+      this.opening.failed(message).catch((error) => this.store.set({ error: reason(error) }));
+      return;
+    }
     this.store.set({ error: message });
     if (about === "vehicle") this.isVehicleAwaited = false;
     if (about === "drive") this.driving.failed();
-    if (about === "map" && this.opening.isAwaited) this.opening.failed(message);
-    else if (about === "map") this.keeping.refuse(message);
+    if (about === "map") this.keeping.refuse(message);
   }
 
   private fileStem(slot: Slot): string {

@@ -7,6 +7,7 @@ import { decode, defaultConfig, type Scene } from "./link";
 import type { Config, MapChoice, MapMessage } from "./protocol";
 import type { MapState, SlotState, Store } from "./store";
 import type { Strokes } from "./strokes";
+import { filesOf, uploadMap } from "./uploading";
 
 /** A scene whole, or a map with its own vehicle and one of its requests. */
 export type Wanted = { map: MapChoice; requestId?: string } & Partial<Scene>;
@@ -25,6 +26,8 @@ export class Opening {
   /** Why what was wanted first could not be opened. */
   private why: string | null = null;
   private current: MapChoice = FIRST.map;
+  /** Whether the map that is here is opened anew, and whether the server got it from the page. */
+  private reopening: "asked" | "restored" | null = null;
   /** What a point cannot be planned with, kept for the next car. */
   private drivingConfig: Config | null = null;
 
@@ -36,7 +39,7 @@ export class Opening {
 
   /** Whether a map is awaited. */
   get isAwaited(): boolean {
-    return this.wanted !== null;
+    return this.wanted !== null || this.reopening !== null;
   }
 
   /** What opens the map that is open. */
@@ -46,6 +49,7 @@ export class Opening {
 
   open(wanted: Wanted): void {
     this.wanted = wanted;
+    this.reopening = null;
     this.connection.send({ type: "open_map", map: wanted.map });
   }
 
@@ -61,24 +65,25 @@ export class Opening {
     return scene !== null;
   }
 
-  /** The line stands again. The server has forgotten all that the page has not; whether it can be
-   * planned on at once. */
-  reopen(): boolean {
-    const { map, vehicle } = this.store.state;
+  /** The line stands again. The server has forgotten all that the page has not. */
+  reopen(): void {
     if (this.wanted !== null) this.open(this.wanted);
-    if (this.wanted !== null || map === null) return false;
-    this.connection.send({ type: "open_map", map: this.current });
-    if (map.isEdited) this.strokes.sendAll(map);
-    if (vehicle !== null) {
-      this.connection.send({ type: "set_vehicle", vehicle: vehicleChoice(vehicle) });
-    }
-    return true;
+    else if (this.store.state.map !== null) this.askAgain("asked");
   }
 
   /** A map came; false where it is here already, as after a broken line. */
   came(message: MapMessage, payload: Uint8Array): boolean {
     const { wanted } = this;
-    if (wanted === null && this.store.state.map !== null) return false;
+    const { map: here, vehicle } = this.store.state;
+    if (wanted === null && here !== null) {
+      this.reopening = null;
+      if (here.isEdited) this.strokes.sendAll(here);
+      if (vehicle !== null) {
+        this.connection.send({ type: "set_vehicle", vehicle: vehicleChoice(vehicle) });
+      }
+      return false;
+    }
+    this.reopening = null;
     this.wanted = null;
     this.current = wanted?.map ?? FIRST.map;
     const values = new Int8Array(payload.slice().buffer);
@@ -91,13 +96,40 @@ export class Opening {
     return true;
   }
 
-  /** The map that was wanted could not be opened; without any the first one is, and why is said. */
-  failed(why: string): void {
+  /** A map could not be opened. One that the server has forgotten it gets from the page; without
+   * any the first one is opened, and why is said. */
+  async failed(why: string): Promise<void> {
+    const { map } = this.store.state;
+    const mayRestore = this.reopening === "asked";
+    this.reopening = null;
+    if (mayRestore && map !== null) {
+      await this.restore(map);
+      return;
+    }
     const wasFirst = JSON.stringify(this.wanted?.map) === JSON.stringify(FIRST.map);
     this.wanted = null;
-    if (this.store.state.map !== null || wasFirst) return;
+    if (map !== null || wasFirst) throw new Error(why);
     this.why = why;
     this.openFirst();
+  }
+
+  private async restore(map: MapState): Promise<void> {
+    this.reopening = "restored";
+    try {
+      const hash = await uploadMap(filesOf(map));
+      // Meanwhile another one may have been opened.
+      if (this.wanted !== null || this.store.state.map !== map) return;
+      this.current = { hash };
+      this.askAgain("restored");
+    } catch (error) {
+      this.reopening = null;
+      throw error;
+    }
+  }
+
+  private askAgain(how: "asked" | "restored"): void {
+    this.reopening = how;
+    this.connection.send({ type: "open_map", map: this.current });
   }
 
   /** Puts vehicle, request and planners of a scene in place. */

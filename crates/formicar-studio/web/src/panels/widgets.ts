@@ -74,6 +74,8 @@ export interface NumberOptions {
   step?: number;
   min?: number;
   max?: number;
+  /** Numbers that are outside all the same: the ends of an open range. */
+  excluded?: readonly (number | undefined)[];
   /** Whether it may be left empty; `change` then hears null. */
   isOptional?: boolean;
   placeholder?: string;
@@ -107,11 +109,13 @@ export class NumberInput {
   }
 
   private changed(): void {
-    const { min = -Infinity, max = Infinity, isOptional = false } = this.options;
+    const { min = -Infinity, max = Infinity, excluded = [], isOptional = false } = this.options;
     const text = this.element.value.trim();
     const value = text === "" ? null : Number(text);
+    const isWithin = (number: number): boolean =>
+      number >= min && number <= max && !excluded.includes(number);
     const isFine =
-      value === null ? isOptional && !this.element.validity.badInput : value >= min && value <= max;
+      value === null ? isOptional && !this.element.validity.badInput : isWithin(value);
     this.element.toggleAttribute("data-out-of-range", !isFine);
     if (isFine) {
       this.element.removeAttribute("aria-invalid");

@@ -13,14 +13,13 @@ export class NumberField implements Field {
 
   constructor(parts: Parts, isInteger: boolean, isOptional: boolean) {
     const range = rangeOf(parts.schema);
-    const take = (value: number | null): void => {
-      const isOff = value !== null && range.excluded.includes(value);
-      if (!isOff) parts.change(value !== null && isInteger ? Math.round(value) : value);
-    };
+    const take = (value: number | null): void =>
+      parts.change(value !== null && isInteger ? Math.round(value) : value);
     this.input = new NumberInput(
       {
         min: range.min ?? undefined,
         max: range.max ?? undefined,
+        excluded: range.excluded,
         step: isInteger ? 1 : stepOf(range, parts.schema.default),
         isOptional,
         placeholder: isOptional ? "none" : undefined,
