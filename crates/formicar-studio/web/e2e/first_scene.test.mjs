@@ -30,17 +30,17 @@ studio.scene("the first scene appears without a click, ants run, and it ends cer
 
 studio.scene("the race is drawn while it is played", { reducedMotion: "no-preference" }, async (page) => {
   await until(page, "ants run", () => window.formicar.store.state.isPlaying && window.formicar.store.state.frameShare > 0.2);
-  const over = await inkOf(page, 2);
+  const over = await inkOf(page, "over");
   await until(page, "it goes on", () => (window.formicar.store.state.frame ?? Infinity) > 1);
-  assert.notEqual(await inkOf(page, 2), over, "ants have moved");
+  assert.notEqual(await inkOf(page, "over"), over, "ants have moved");
 
   const at = await see(page, ({ slots }) => slots.a.plan.frames.findIndex(({ type }) => type === "expanded"));
   await page.getByRole("slider", { name: "Moment of the run" }).fill("0");
-  const blank = await inkOf(page, 1);
+  const blank = await inkOf(page, "search");
   await page.getByRole("slider", { name: "Moment of the run" }).fill(String(at));
   await until(page, "the frame is shown", (at) => window.formicar.store.state.frame === at, at);
   await nextFrame(page);
-  assert.notEqual(await inkOf(page, 1), blank, "hybrid A* has grown");
+  assert.notEqual(await inkOf(page, "search"), blank, "hybrid A* has grown");
 });
 
 studio.scene("with reduced motion nothing plays by itself", {}, async (page) => {

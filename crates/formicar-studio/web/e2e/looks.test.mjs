@@ -25,7 +25,7 @@ for (const colorScheme of ["light", "dark"]) {
     assert.equal(asWished.page < 100, isDark);
     assert.equal(asWished.map < 100, isDark, "the map too");
     assert.equal(asWished.text > 150, isDark);
-    const ink = await inkOf(page, 2);
+    const ink = await inkOf(page, "over");
     const button = page.getByRole("button", { name: /^Theme/ });
     await button.click();
     if (!isDark) await button.click();
@@ -38,6 +38,6 @@ for (const colorScheme of ["light", "dark"]) {
       const canvas = document.querySelector(".map-host canvas");
       return canvas.getContext("2d").getImageData(2, canvas.height - 3, 1, 1).data[0] < 100 !== isDark;
     }, isDark);
-    assert.notEqual(await inkOf(page, 2), ink, "what is drawn over it too");
+    assert.notEqual(await inkOf(page, "over"), ink, "what is drawn over it too");
   });
 }

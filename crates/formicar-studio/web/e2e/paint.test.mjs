@@ -59,7 +59,7 @@ studio.scene("a wall with a gap that is too narrow: the gap is ringed and measur
 
 /** Pixels that are drawn about a place of the window, over map and ways. */
 function ringOfGap({ at: [x, y] }) {
-  const canvas = document.querySelectorAll(".map-host[data-slot=a] canvas")[2];
+  const canvas = document.querySelector(".map-host[data-slot=a] canvas[data-layer=over]");
   const box = canvas.getBoundingClientRect();
   const ratio = canvas.width / box.width;
   const [left, top] = [(x - box.left - 20) * ratio, (y - box.top - 20) * ratio];

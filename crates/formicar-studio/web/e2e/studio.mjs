@@ -244,11 +244,11 @@ export async function drag(page, [from, ...to]) {
   await page.mouse.up();
 }
 
-/** A sum over the pixels of one of a map's canvases: another picture, another sum. */
+/** A sum over the pixels of a layer of a map: another picture, another sum. */
 export function inkOf(page, layer, slot = "a") {
   return page.evaluate(
     ({ layer, slot }) => {
-      const canvas = document.querySelectorAll(`.map-host[data-slot=${slot}] canvas`)[layer];
+      const canvas = document.querySelector(`.map-host[data-slot=${slot}] canvas[data-layer=${layer}]`);
       const { width, height } = canvas;
       const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
       return data.reduce((sum, value, i) => (sum * 31 + value * (1 + (i & 3))) % 1_000_000_007, 7);

@@ -40,12 +40,12 @@ studio.scene("a run is played, paused, stepped and scrubbed", {}, async (page) =
   await slider(page).fill("0");
   await until(page, "the first frame is told", () => /iteration 1:/.test(document.querySelector(".player-words").textContent));
   await nextFrame(page);
-  const [ground, ants] = [await inkOf(page, 0), await inkOf(page, 2)];
+  const [ground, ants] = [await inkOf(page, "base"), await inkOf(page, "over")];
   await slider(page).fill(String(Math.floor(nFrames / 2)));
   await until(page, "another frame is told", () => !/iteration 1:/.test(document.querySelector(".player-words").textContent));
   await nextFrame(page);
-  assert.notEqual(await inkOf(page, 0), ground, "pheromone has changed");
-  assert.notEqual(await inkOf(page, 2), ants, "ants have changed");
+  assert.notEqual(await inkOf(page, "base"), ground, "pheromone has changed");
+  assert.notEqual(await inkOf(page, "over"), ants, "ants have changed");
   assert.match(await slider(page).getAttribute("aria-valuetext"), /\d+ of \d+ arrived/);
 
   await slider(page).press("End");
@@ -76,7 +76,7 @@ studio.scene("the papers' steps are told, one by one", {}, async (page) => {
   const told = [];
   for (;;) {
     await nextFrame(page);
-    told.push({ words: await card.locator(".teller-words").innerText(), ink: (await inkOf(page, 0)) + (await inkOf(page, 2)) });
+    told.push({ words: await card.locator(".teller-words").innerText(), ink: (await inkOf(page, "base")) + (await inkOf(page, "over")) });
     if (await next.isDisabled()) break;
     await next.click();
   }
@@ -121,12 +121,12 @@ studio.scene("ants and pheromone can be left out of the picture", {}, async (pag
   await openColony(page);
   await slider(page).fill("3");
   await nextFrame(page);
-  const [ground, ants] = [await inkOf(page, 0), await inkOf(page, 2)];
+  const [ground, ants] = [await inkOf(page, "base"), await inkOf(page, "over")];
   await page.getByLabel("What is drawn").click();
   await page.getByLabel("Pheromone").uncheck();
   await nextFrame(page);
-  assert.notEqual(await inkOf(page, 0), ground);
+  assert.notEqual(await inkOf(page, "base"), ground);
   await page.getByLabel("Ants and search").uncheck();
   await nextFrame(page);
-  assert.notEqual(await inkOf(page, 2), ants);
+  assert.notEqual(await inkOf(page, "over"), ants);
 });

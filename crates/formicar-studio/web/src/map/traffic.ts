@@ -25,20 +25,14 @@ interface Drawn {
 
 const drawn = new WeakMap<IterationFrame, Drawn>();
 
-/** Draws an iteration; its ants have walked for so many seconds. */
-export function drawTraffic(
-  sheet: Sheet,
-  map: MapState,
-  frame: IterationFrame,
-  walkedS: number,
-): void {
+/** Draws where the ants of an iteration went, and the best way. */
+export function drawPassages(sheet: Sheet, map: MapState, frame: IterationFrame): void {
   const { colors } = sheet;
   const ctx = sheet.inCells(map);
-  const kept = drawn.get(frame) ?? prepare(frame);
-  drawn.set(frame, kept);
+  const { lost, arrived, best } = prepared(frame);
   const layers = [
-    { shades: kept.lost, color: colors.lost, most: 0.55 },
-    { shades: kept.arrived, color: colors.arrived, most: 0.85 },
+    { shades: lost, color: colors.lost, most: 0.55 },
+    { shades: arrived, color: colors.arrived, most: 0.85 },
   ];
   for (const { shades, color, most } of layers) {
     shades.forEach((shade, i) => {
@@ -46,16 +40,19 @@ export function drawTraffic(
       sheet.faint((most * (i + 1.5)) / (N_SHADES + 0.5), () => ctx.stroke(shade));
     });
   }
-  drawBest(sheet, kept.best);
-  drawAnts(sheet, kept.lanes, walkedS, Math.max(map.n_cols, map.n_rows));
+  drawBest(sheet, best);
 }
 
-function drawAnts(
+/** Draws ants on their ways, after so many seconds. */
+export function drawWalkers(
   sheet: Sheet,
-  lanes: readonly number[][],
+  map: MapState,
+  frame: IterationFrame,
   walkedS: number,
-  nAcross: number,
 ): void {
+  sheet.inCells(map);
+  const { lanes } = prepared(frame);
+  const nAcross = Math.max(map.n_cols, map.n_rows);
   const follow = Math.max(FOLLOW_CELLS, FOLLOW_SHARE * nAcross);
   const speed = Math.max(CELLS_PER_S, SHARE_PER_S * nAcross);
   const ants = new Ants(sheet);
@@ -106,10 +103,15 @@ function drawBest(sheet: Sheet, best: Path2D): void {
   sheet.ctx.stroke(best);
 }
 
-function prepare(frame: IterationFrame): Drawn {
+function prepared(frame: IterationFrame): Drawn {
+  const known = drawn.get(frame);
+  if (known !== undefined) return known;
   const best = new Path2D();
   addPolyline(best, centered(frame.best));
-  return { arrived: shades(frame.arrived), lost: shades(frame.lost), best, lanes: lanesOf(frame) };
+  const [arrived, lost] = [shades(frame.arrived), shades(frame.lost)];
+  const made = { arrived, lost, best, lanes: lanesOf(frame) };
+  drawn.set(frame, made);
+  return made;
 }
 
 /** Passages by the logarithm of how many ants went. */

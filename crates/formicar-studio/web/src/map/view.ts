@@ -27,7 +27,7 @@ import { drawDrivers, drawNewest, Expanded } from "./race";
 import { type Scene, sceneOf } from "./scene";
 import { Sheet } from "./sheet";
 import { drawStageCells, drawStageWays, isTold } from "./stages";
-import { drawGeneration, drawTraffic } from "./traffic";
+import { drawGeneration, drawPassages, drawWalkers } from "./traffic";
 
 const KEYS = [
   "map",
@@ -56,13 +56,15 @@ export class MapView {
   private readonly view: View;
   private readonly base: Sheet;
   private readonly search: Sheet;
+  private readonly ways: Sheet;
   private readonly over: Sheet;
   private readonly ground = new Ground();
   private readonly pheromone = new Pheromone();
   private readonly expanded: Expanded;
   private readonly hands: Hands;
   private readonly handles: Handles;
-  private baseKey: unknown[] = [];
+  /** What the sheets that are drawn rarely were drawn from. */
+  private readonly drawnFrom = new Map<Sheet, unknown[]>();
   private fitted: Int8Array | null = null;
   private isScheduled = false;
   /** How long ants that walk over cells have been walking, seconds, and when that was counted. */
@@ -78,12 +80,16 @@ export class MapView {
     this.element = h("div", { class: "map-view", tabindex: 0, role: "group", "aria-label": LABEL });
     this.element.dataset.slot = slot;
     this.view = new View(cameraOf(store), 1, 1);
-    const sheet = () => {
+    const sheet = (layer: string) => {
       const canvas = h("canvas", { "aria-hidden": true });
+      canvas.dataset.layer = layer;
       this.element.append(canvas);
       return new Sheet(canvas, this.view, palette());
     };
-    [this.base, this.search, this.over] = [sheet(), sheet(), sheet()];
+    this.base = sheet("base");
+    this.search = sheet("search");
+    this.ways = sheet("ways");
+    this.over = sheet("over");
     this.expanded = new Expanded(this.search);
     const schedule = () => this.schedule();
     this.hands = new Hands(store, actions, slot, this.view, () => this.shape(), schedule);
@@ -115,7 +121,7 @@ export class MapView {
     // What was whole stays whole.
     if (this.view.camera.isFitted) this.fit();
     // Drawn at once: a resized canvas is blank.
-    this.baseKey = [];
+    this.drawnFrom.clear();
     this.draw();
   }
 
@@ -125,7 +131,7 @@ export class MapView {
   }
 
   private get sheets(): Sheet[] {
-    return [this.base, this.search, this.over];
+    return [this.base, this.search, this.ways, this.over];
   }
 
   private schedule(): void {
@@ -158,6 +164,7 @@ export class MapView {
     }
     this.drawBase(scene);
     this.drawSearch(scene);
+    this.drawWays(scene);
     this.drawOver(scene);
     this.write(scene);
     const { plan } = scene;
@@ -169,28 +176,26 @@ export class MapView {
   /** Ground, pheromone and cells of the telling: drawn only when they have changed. */
   private drawBase({ state, map, plan, moment, step }: Scene): void {
     const { base } = this;
-    const { camera } = this.view;
     const bytes = state.layers.pheromone && step === null ? moment.iteration?.pheromone : undefined;
     const stages = plan?.end?.stages;
-    const key: unknown[] = [
-      map.values,
-      map.version,
-      camera.x,
-      camera.y,
-      camera.pxPerM,
-      base.colors,
-      bytes,
-    ];
-    key.push(step?.name, step === null ? null : stages);
-    if (key.length === this.baseKey.length && key.every((part, i) => part === this.baseKey[i]))
-      return;
-    this.baseKey = key;
+    const told = step === null ? null : stages;
+    if (!this.isOutdated(base, [map.values, map.version, bytes, step?.name, told])) return;
     const ctx = base.inPixels();
     ctx.fillStyle = base.colors.offMap;
     ctx.fillRect(0, 0, this.view.widthPx, this.view.heightPx);
     this.ground.draw(base, map);
     if (bytes !== undefined) this.pheromone.draw(base, map, bytes);
     if (step !== null && stages !== undefined) drawStageCells(base, map, stages, step.name);
+  }
+
+  /** Whether a sheet must be drawn anew: for another view, other colors or another key. */
+  private isOutdated(sheet: Sheet, ownKey: readonly unknown[]): boolean {
+    const { x, y, pxPerM } = this.view.camera;
+    const key = [x, y, pxPerM, sheet.colors, ...ownKey];
+    const before = this.drawnFrom.get(sheet);
+    if (key.length === before?.length && key.every((part, i) => part === before[i])) return false;
+    this.drawnFrom.set(sheet, key);
+    return true;
   }
 
   /** Where hybrid A* has been; where it found no way, all of it stays. */
@@ -203,12 +208,23 @@ export class MapView {
     else this.expanded.clear();
   }
 
+  /** Where the ants of an iteration went: drawn only when that has changed. */
+  private drawWays({ state, map, moment, step }: Scene): void {
+    const { ways } = this;
+    const isShown = state.layers.ants && step === null && moment.nBegun !== null;
+    const frame = isShown ? moment.iteration : null;
+    if (!this.isOutdated(ways, [map.values, frame])) return;
+    ways.canvas.hidden = frame === null;
+    ways.clear();
+    if (frame !== null) drawPassages(ways, map, frame);
+  }
+
   private drawOver(scene: Scene): void {
     const { over } = this;
     const { state, map, plan, step, side } = scene;
     over.clear();
     keepRoom(over, scene);
-    this.drawWays(scene);
+    this.drawAnts(scene);
     if (step !== null && plan?.end) drawStageWays(over, map, plan.end.stages, step.name);
     if (step === null || isTold("arcs", step.name)) this.drawShape(scene);
     drawEnds(over, state.request, state.vehicle, this.hands.held);
@@ -224,10 +240,10 @@ export class MapView {
   }
 
   /** Ants, and what else the run shows on its way. */
-  private drawWays({ state, map, plan, moment, step }: Scene): void {
+  private drawAnts({ state, map, plan, moment, step }: Scene): void {
     if (!state.layers.ants || step !== null || moment.nBegun === null) return;
     const { over } = this;
-    if (moment.iteration) drawTraffic(over, map, moment.iteration, this.walkedS);
+    if (moment.iteration) drawWalkers(over, map, moment.iteration, this.walkedS);
     if (moment.generation) drawGeneration(over, map, moment.generation);
     drawNewest(over, plan?.frames[moment.nBegun - 1]);
     if (moment.drive === null) return;

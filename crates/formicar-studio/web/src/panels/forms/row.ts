@@ -1,7 +1,7 @@
 /** What every field of a form is made of: a row that marks what was changed and takes it back. */
 
 import { freshId, h } from "../../dom";
-import { plain } from "../../format";
+import { count, plain } from "../../format";
 import type { JsonSchema } from "../../protocol";
 import { iconButton } from "../widgets";
 import { isSame } from "./same";
@@ -79,6 +79,7 @@ export class Row {
 function rangeText(schema: JsonSchema, root: JsonSchema): string {
   if (shapeOf(schema, root).kind !== "number") return "";
   const { min, max } = rangeOf(schema);
-  if (min !== null && max !== null) return `${plain(min)} to ${plain(max)}`;
-  return min !== null ? `at least ${plain(min)}` : "";
+  const text = (value: number): string => (Number.isInteger(value) ? count(value) : plain(value));
+  if (min !== null && max !== null) return `${text(min)} to ${text(max)}`;
+  return min !== null ? `at least ${text(min)}` : "";
 }
