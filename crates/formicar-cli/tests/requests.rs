@@ -179,3 +179,20 @@ fn bad_flags_are_refused_with_value_and_hint() {
     let other = ["--soft-costs", "map", "--planner", "astar"];
     refused(&other, &["astar does not weigh", "--planner formicar"]);
 }
+
+#[test]
+fn a_budget_that_ends_after_a_path_was_found_tells_what_did_not_fit() {
+    let room = Room::new();
+    let continuous = ["--continuous-curvature", "0.05", "--budget", "5000"];
+    let run = room.run(&[&["plan", "--map", "warehouse"], &continuous[..]].concat());
+    assert_eq!(run.code, 3, "{}{}", run.stdout, run.stderr);
+    for words in ["budget_exhausted", "found a path, but", "cut short"] {
+        assert!(run.stdout.contains(words), "{}", run.stdout);
+    }
+}
+
+#[test]
+fn headings_that_nobody_can_turn_back_are_refused() {
+    let room = Room::new();
+    near(&room, &["--goal", "4.5,2,1e16"]).assert_refused(&["heading", "1e6"]);
+}

@@ -2,15 +2,15 @@
 
 use formicar::collision::ObstacleMap;
 use formicar::geometry::{Arc, Point2, Pose2};
-use formicar::map::OccupancyGrid;
 use formicar::map::generate::{ScatterParameters, free_pose_pairs, scattered_obstacles};
+use formicar::map::{Cell, OccupancyGrid};
 use formicar::numeric::Seed;
 use formicar::path::CurvePath;
 use formicar::planner::{NotFound, Outcome, Planner, PlannerConfig, PlannerName};
 use formicar::progress::Status;
-use formicar::scenario::{GoalTolerance, Request, ViaPoint};
+use formicar::scenario::{GoalTolerance, MotionMode, Request, ViaPoint};
 use formicar::validation::{CURVATURE_TOLERANCE, judge_path};
-use formicar::vehicle::Vehicle;
+use formicar::vehicle::{Vehicle, VehicleParameters};
 use std::f64::consts::PI;
 
 fn ask(map: &OccupancyGrid, vehicle: Vehicle, request: &Request) -> Outcome {
@@ -101,6 +101,78 @@ fn a_search_that_is_cut_short_says_how_wide_the_widest_way_is() {
     assert!(gap.gap_m > gap.vehicle_width_m);
     let said = format!("{:.2} m at its narrowest", gap.gap_m);
     assert!(failure.reason.contains(&said), "{}", failure.reason);
+}
+
+/// A corridor of 8 cells of 0.1 m, closed at its left end.
+fn corridor() -> OccupancyGrid {
+    let rows: Vec<String> = (0..12)
+        .map(|row| match row {
+            2..10 => "#".to_owned() + &".".repeat(79),
+            _ => "#".repeat(80),
+        })
+        .collect();
+    let rows: Vec<&str> = rows.iter().map(String::as_str).collect();
+    OccupancyGrid::from_rows(&rows, 0.1).expect("rows")
+}
+
+#[test]
+fn a_corridor_that_the_vehicle_fits_is_not_called_too_narrow() {
+    let broad = Vehicle::new(VehicleParameters {
+        width_m: Some(0.75),
+        ..Vehicle::warehouse_amr().parameters().clone()
+    });
+    let back = Request {
+        motion: MotionMode::Forward,
+        ..Request::new(Pose2::new(5.0, 0.6, 0.0), Pose2::new(2.0, 0.6, 0.0))
+    };
+    let failure = failure(&corridor(), broad.expect("a vehicle"), &back);
+    assert_eq!(failure.status, Status::NoPath);
+    let gap = failure.explanation.gap.expect("a gap");
+    assert!((gap.gap_m - 0.8).abs() < 1e-9, "{gap:?}");
+    assert!(failure.reason.contains("turning"), "{}", failure.reason);
+    assert!(
+        failure.reason.contains("allow reverse"),
+        "{}",
+        failure.reason
+    );
+}
+
+#[test]
+fn of_several_goals_the_one_with_the_widest_way_is_told_of() {
+    let (sealed, open) = (Pose2::new(7.0, 0.6, 0.0), Pose2::new(2.0, 0.6, 0.0));
+    let mut map = corridor();
+    for row in 0..12 {
+        map.set(Cell::new(60, row), 100);
+    }
+    for (goal, other) in [(sealed, open), (open, sealed)] {
+        let back = Request {
+            motion: MotionMode::Forward,
+            other_goals: vec![other],
+            ..Request::new(Pose2::new(4.0, 0.6, 0.0), goal)
+        };
+        let failure = failure(&map, Vehicle::warehouse_amr(), &back);
+        assert!(failure.reason.contains("turning"), "{}", failure.reason);
+        let gap = failure.explanation.gap.expect("a gap");
+        assert!((gap.gap_m - 0.8).abs() < 1e-9, "{gap:?}");
+    }
+}
+
+#[test]
+fn a_budget_that_ends_while_other_headings_are_tried_names_the_leg_behind() {
+    // Through a dead end to what lies behind the start: forward only there is no second leg.
+    let request = Request {
+        motion: MotionMode::Forward,
+        via: vec![ViaPoint::new(Point2::new(6.0, 0.6))],
+        budget_steps: Some(100),
+        ..Request::new(Pose2::new(4.0, 0.6, 0.0), Pose2::new(2.0, 0.6, 0.0))
+    };
+    let failure = failure(&corridor(), Vehicle::warehouse_amr(), &request);
+    assert_eq!(failure.explanation.leg, Some(2), "{}", failure.reason);
+    assert!(
+        failure.reason.starts_with("leg 2 of 2"),
+        "{}",
+        failure.reason
+    );
 }
 
 #[test]

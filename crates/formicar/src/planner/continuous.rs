@@ -80,11 +80,19 @@ impl Planner {
                         return Ok(Ok(Found { path, ..other }));
                     }
                 }
-                Err(ended) if was_stopped(ended.status, limits) => return Ok(Err(ended)),
+                Err(ended) if was_stopped(ended.status, limits) => {
+                    let others = "the search for gentler turns was cut short";
+                    let status = ended.status;
+                    return Ok(Err(Ended {
+                        status,
+                        ..self.no_transition(&first, others, found)
+                    }));
+                }
                 Err(_) => {}
             }
         }
-        Ok(Err(self.no_transition(&first, found)))
+        let others = "paths for gentler turns did no better";
+        Ok(Err(self.no_transition(&first, others, found)))
     }
 
     /// This planner for a gentler vehicle; none where that does not fit at an end.
@@ -100,9 +108,9 @@ impl Planner {
         })
     }
 
-    fn no_transition(&self, problem: &NoTransition, found: Found) -> Ended {
+    fn no_transition(&self, problem: &NoTransition, others: &str, found: Found) -> Ended {
         let reason = format!(
-            "{} found a path, but {problem}; paths for gentler turns did no better; hint: allow a larger rate or drive more slowly, or give the vehicle more room",
+            "{} found a path, but {problem}; {others}; hint: allow a larger rate or drive more slowly, or give the vehicle more room",
             self.config.planner.name()
         );
         Ended::because(Status::Infeasible, reason, found.stages)

@@ -115,7 +115,11 @@ impl Journey<'_, '_> {
             };
             match legs {
                 Ok(legs) => return Ok(Ok(legs)),
-                Err(ended) if !ended.leaves_hope(self.limits) => return Ok(Err(ended)),
+                // What failed is the leg behind; another heading might have helped it.
+                Err(ended) if !ended.leaves_hope(self.limits) => {
+                    let status = ended.status;
+                    return Ok(Err(Ended { status, ..first }));
+                }
                 Err(_) => {}
             }
         }

@@ -36,8 +36,8 @@ impl Scenario {
     /// The problem on a prepared map.
     ///
     /// # Errors
-    /// Poses that are not finite, off the map, or where the vehicle does not fit; tolerances
-    /// that are not positive.
+    /// Poses that are not finite, off the map, or where the vehicle does not fit; headings beyond
+    /// a million radians; tolerances that are not positive.
     pub fn with_request(
         obstacles: Arc<ObstacleMap>,
         vehicle: Vehicle,
@@ -115,26 +115,36 @@ impl Request {
                 });
             }
         }
-        check_finite("start", self.start)?;
+        check_pose("start", self.start)?;
         for goal in self.goals() {
-            check_finite("goal", goal)?;
+            check_pose("goal", goal)?;
         }
         check_tolerance("goal tolerance", self.goal_tolerance)?;
         for via in &self.via {
             let heading_rad = via.heading_rad.unwrap_or_default();
-            check_finite("via point", Pose2::at(via.position, heading_rad))?;
+            check_pose("via point", Pose2::at(via.position, heading_rad))?;
             check_tolerance("via tolerance", via.tolerance)?;
         }
         Ok(())
     }
 }
 
-fn check_finite(what: &'static str, pose: Pose2) -> Result<(), ScenarioError> {
-    if pose.is_finite() {
-        return Ok(());
+/// The largest heading, radians: beyond, turns can no longer be taken off exactly.
+const MAX_HEADING_RAD: f64 = 1e6;
+
+fn check_pose(what: &'static str, pose: Pose2) -> Result<(), ScenarioError> {
+    if !pose.is_finite() {
+        let value = format!("({}, {}, {})", pose.x, pose.y, pose.heading);
+        return Err(ScenarioError::NotFinite { what, value });
     }
-    let value = format!("({}, {}, {})", pose.x, pose.y, pose.heading);
-    Err(ScenarioError::NotFinite { what, value })
+    if pose.heading.abs() > MAX_HEADING_RAD {
+        return Err(ScenarioError::OutOfRange {
+            what,
+            value: pose.heading,
+            range: "a heading within 1e6 radians",
+        });
+    }
+    Ok(())
 }
 
 fn check_tolerance(what: &'static str, tolerance: GoalTolerance) -> Result<(), ScenarioError> {

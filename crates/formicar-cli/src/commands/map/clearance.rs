@@ -84,10 +84,10 @@ fn measure(obstacles: &ObstacleMap, [start, goal]: [Point2; 2], ends: [Cell; 2])
     let Some(passage) = widest_passage(&field, from, to) else {
         return Clearance::none();
     };
-    let cells = passage.cells.iter();
-    let centers = cells.map(|cell| frame.center(Cell::new(cell.col - 1, cell.row - 1)));
+    let inside = |cell: Cell| frame.center(Cell::new(cell.col - 1, cell.row - 1));
+    let narrowest = inside(passage.narrowest);
     let mut way: Vec<Point2> = std::iter::once(start)
-        .chain(centers)
+        .chain(passage.cells.iter().copied().map(inside))
         .chain([goal])
         .collect();
     way.dedup();
@@ -102,7 +102,7 @@ fn measure(obstacles: &ObstacleMap, [start, goal]: [Point2; 2], ends: [Cell; 2])
         connected: true,
         width_m: Some(2.0 * report.min_clearance_m),
         limit_m: limit_m(&field, passage.distance_cells, frame.resolution_m()),
-        narrowest: Some([report.tightest.x, report.tightest.y]),
+        narrowest: Some([narrowest.x, narrowest.y]),
     }
 }
 

@@ -70,6 +70,7 @@ impl<'a> DriveColony<'a, '_> {
     /// # Errors
     /// Budget, deadline or cancel.
     pub fn look_for_a_way(&mut self, limits: &mut Limits) -> Result<Option<Driven>, Status> {
+        limits.look()?;
         let ways = self.walk();
         let n_told = ways.iter().position(|way| way.died_at.is_none());
         self.tell(
@@ -78,10 +79,10 @@ impl<'a> DriveColony<'a, '_> {
         );
         let mut deaths = Vec::new();
         for way in ways {
-            limits.look()?;
             if limits.take(way.n_steps) < way.n_steps {
                 return Err(Status::BudgetExhausted);
             }
+            limits.look()?;
             match way.died_at {
                 None => return Ok(Some((way.start, way.arcs))),
                 Some(place) => deaths.push(place),
@@ -122,10 +123,10 @@ impl<'a> DriveColony<'a, '_> {
         self.tell(&ways, limits);
         let mut whole = Vec::new();
         for (index, way) in ways.into_iter().enumerate() {
-            limits.look()?;
             if limits.take(way.n_steps) < way.n_steps {
                 return Err(Status::BudgetExhausted);
             }
+            limits.look()?;
             if way.died_at.is_none() {
                 let (before, _) = &branches[index / 2 % branches.len()];
                 whole.push(before.iter().copied().chain(way.arcs).collect());
