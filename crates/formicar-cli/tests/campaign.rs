@@ -177,7 +177,36 @@ fn scenario_files_are_beside_the_campaign_file() {
 }
 
 /// What stands at the beginning of a file, and words of what is said of it.
-const MISTAKES: [(&str, &[&str]); 11] = [
+const MISTAKES: [(&str, &[&str]); 17] = [
+    (
+        "seeds = { from = 5, to = 2 }\n",
+        &["line 1, seeds: from = 5 must not exceed to = 2"],
+    ),
+    (
+        "[[planner]]\nplanner = \"formicar\"\n[planner.config]\ndrive = 3\n",
+        &["line 4, drive: drive: ", "`3`, expected a table\n"],
+    ),
+    (
+        "[[planner]]\nplanner = \"formicar\"\n[planner.config.drive]\nn_ants = 3\nbeta = \"x\"\n",
+        &["line 5, beta: drive.beta: ", "\"x\"", "a finite number"],
+    ),
+    (
+        "[[planner]]\nplanner = \"formicar\"\n[planner.config.drive.repair]\n\
+         toll_per_death = \"x\"\n",
+        &["line 4, toll_per_death: drive.repair.toll_per_death: "],
+    ),
+    (
+        "[[planner]]\nplanner = \"formicar\"\n[planner.config.hybrid_astar]\nweight = nan\n",
+        &["line 4, weight: hybrid_astar.weight: nan or inf"],
+    ),
+    (
+        "[[planner]]\nplanner = \"formicar\"\nset = [\"hybrid_astar.weight=nan\"]\n",
+        &[
+            "line 3, set",
+            "weight",
+            "nan or inf, expected a finite number",
+        ],
+    ),
     ("sedes = 3\n", &["c.toml, line 1, sedes", "`seeds`"]),
     (
         "seeds = \"a\"\n",
@@ -239,12 +268,48 @@ fn wrong_campaigns_name_file_line_key_and_what_is_allowed() {
     room.run(&["bench", "c.toml", "--store", "s.sqlite", "--seeds", "2"])
         .assert_refused(&["--seeds", "c.toml"]);
     assert!(!room.path("s.sqlite").exists());
+    bench(&room, "nowhere/s.sqlite")
+        .assert_refused(&["nowhere/s.sqlite: there is no folder nowhere"]);
     room.write("text.sqlite", "no store");
-    bench(&room, "text.sqlite").assert_refused(&["text.sqlite"]);
-    room.run(&["report", "text.sqlite", "--out", "r"])
-        .assert_refused(&["text.sqlite"]);
+    bench(&room, "text.sqlite").assert_refused(&["text.sqlite", "no store of campaigns"]);
+    let run = room.run(&["report", "text.sqlite", "--out", "r"]);
+    run.assert_refused(&[
+        "text.sqlite",
+        "expected the SQLite file that `bench --store",
+    ]);
+    assert!(!run.stderr.contains("another --store"), "{}", run.stderr);
     room.run(&["report", "none.sqlite", "--out", "r"])
         .assert_refused(&["none.sqlite"]);
+}
+
+#[test]
+fn a_store_that_its_table_would_be_written_over_is_refused_before_any_run() {
+    let room = Room::new();
+    room.write("c.toml", "[[scenarios]]\nbuiltin = [\"narrow-junction\"]\n");
+    bench(&room, "z.csv").assert_refused(&["--store z.csv", "hint: --store z.sqlite"]);
+    let flags = ["bench", "narrow-junction", "--store", "z.csv"];
+    room.run(&flags).assert_refused(&["--store z.csv"]);
+    assert!(!room.path("z.csv").exists());
+}
+
+#[test]
+fn tables_of_no_runs_are_refused() {
+    let room = Room::new();
+    let header = "scenario,planner,seed,status,valid\n";
+    let report = |rows: &str| {
+        room.write("r.csv", format!("{header}{rows}"));
+        room.run(&["report", "r.csv", "--out", "page"])
+    };
+    report("").assert_refused(&["r.csv", "line 1", "a row for each run"]);
+    report("a,b,0,found,true\na,b,1,fnd,true\n").assert_refused(&[
+        "r.csv",
+        "line 3",
+        "\"fnd\"",
+        "found, no_path",
+    ]);
+    assert!(!room.path("page").exists());
+    let run = report("a,b,0,found,true\n");
+    assert!(run.stdout.contains("\n1 run: see"), "{}", run.stdout);
 }
 
 #[test]

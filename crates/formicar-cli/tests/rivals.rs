@@ -241,7 +241,8 @@ fn files_of_others_are_judged_and_tabled_beside_ours() {
         "lattice",
     ];
     let run = import(&room, &[&["short.csv"], &loose[..]].concat());
-    assert!(run.stdout.contains("1 runs of 2 are new"), "{}", run.stdout);
+    let told = "1 run imported, 2 in all: see r.csv";
+    assert!(run.stdout.contains(told), "{}", run.stdout);
     import_the_others(&room);
     table_beside_ours(&room);
 }
@@ -278,6 +279,7 @@ fn table_beside_ours(room: &Room) {
     ] {
         assert!(page.stdout.contains(row), "no {row:?} in: {}", page.stdout);
     }
+    import_what_a_report_writes(room);
     let only = [
         "import",
         "--scenario",
@@ -291,6 +293,15 @@ fn table_beside_ours(room: &Room) {
     assert_eq!(room.run(&only).code, 0);
     let compared = room.run(&["compare", "o.sqlite", "n.csv"]);
     assert_eq!((compared.code, compared.stderr.as_str()), (0, ""));
+}
+
+/// The OMPL log of a report, which holds no path to judge.
+fn import_what_a_report_writes(room: &Room) {
+    let log = "page/ompl-s-own-reverse.log";
+    let run = room.run(&["import", "--scenario", "s.json", log, "--out", "l.csv"]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    let told = "hybrid-astar  seed 0  found: its log holds no path: not judged";
+    assert!(run.stdout.contains(told), "{}", run.stdout);
 }
 
 #[test]
@@ -313,4 +324,25 @@ fn files_that_are_none_are_refused_with_the_place() {
         import(&room, &[name, "--planner", "it"]).assert_refused(&words);
     }
     import(&room, &["good.csv"]).assert_refused(&["good.csv", "--planner NAME"]);
+    let late = [
+        "good.csv",
+        "--planner",
+        "it",
+        "--query",
+        "0.1",
+        "--first",
+        "0.3",
+    ];
+    import(&room, &late).assert_refused(&["--first 0.3", "--query 0.1"]);
+    let base = [
+        "import",
+        "--scenario",
+        "s.json",
+        "good.csv",
+        "--planner",
+        "it",
+    ];
+    let run = room.run(&[&base[..], &["--out", "r.sqlite"]].concat());
+    run.assert_refused(&["--out r.sqlite", "a table as CSV", "--out r.csv"]);
+    assert!(!room.path("r.sqlite").exists());
 }

@@ -137,6 +137,16 @@ fn what_cannot_be_tuned_is_refused() {
         .assert_refused(&["nowhere", "narrow-junction"]);
     room.run(&["tune", "missing.json", "--out", "out"])
         .assert_refused(&["missing.json"]);
+    let of_point = [
+        "tune",
+        "wang-open",
+        "--group",
+        "drive.trails",
+        "--out",
+        "out",
+    ];
+    room.run(&of_point)
+        .assert_refused(&["wang-open-", "formicar cannot be asked this", "a point"]);
     assert!(!room.path("out").exists());
 
     assert_eq!(tune(&room, &["--out", "mine"]).code, 0);

@@ -4,6 +4,7 @@
 use super::bench::measure;
 use crate::args::GroundArgs;
 use crate::failure::{Ending, Failure};
+use crate::summary::counted;
 use crate::{files, ground, values};
 use anyhow::{Context, Result, anyhow, bail};
 use clap::{Args, ValueHint};
@@ -83,6 +84,7 @@ struct Place {
 
 /// Carries out `import`.
 pub(crate) fn run(args: &ImportArgs, out: &mut impl Write) -> Result<Ending, Failure> {
+    check(args)?;
     let place = Place::of(args)?;
     let mut records = Vec::new();
     for (path, seed) in args.files.iter().zip(args.seed..) {
@@ -98,14 +100,28 @@ pub(crate) fn run(args: &ImportArgs, out: &mut impl Write) -> Result<Ending, Fai
     for record in &records {
         writeln!(out, "{}", line(record))?;
     }
-    let file = args.out.display();
-    writeln!(
-        out,
-        "{} runs of {} are new: see {file}",
-        records.len(),
-        rows.len()
-    )?;
+    let (file, n_runs) = (args.out.display(), counted(records.len(), "run"));
+    writeln!(out, "{n_runs} imported, {} in all: see {file}", rows.len())?;
     Ok(Ending::Done)
+}
+
+/// Refuses a table that could not be read back, and a first path after the end of its query.
+fn check(args: &ImportArgs) -> Result<()> {
+    let is_table = args
+        .out
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("csv"));
+    if !is_table {
+        let hint = args.out.with_extension("csv");
+        let (out, hint) = (args.out.display(), hint.display());
+        bail!("--out {out}: expected a table as CSV, not a store; hint: --out {hint}");
+    }
+    match (args.first, args.query) {
+        (Some(first_s), Some(query_s)) if first_s > query_s => bail!(
+            "--first {first_s}: the query took {query_s} s in all; hint: at most --query {query_s}"
+        ),
+        _ => Ok(()),
+    }
 }
 
 impl Place {

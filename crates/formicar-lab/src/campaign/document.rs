@@ -129,19 +129,23 @@ fn motions(value: Option<&Spanned<Value>>, text: &Text) -> Result<Vec<MotionMode
     let Some(value) = value else {
         return Ok(vec![MotionMode::default()]);
     };
-    let list = match value.get_ref() {
-        Value::Array(list) => list.iter().map(motion).collect(),
-        word => motion(word).map(|mode| vec![mode]),
+    let expected = "expected \"reverse\" (both gears), \"forward\", or a list of both";
+    let words = match value.get_ref() {
+        Value::Array(list) => &list[..],
+        word => std::slice::from_ref(word),
     };
-    let is_list = |modes: &Vec<MotionMode>| match modes[..] {
-        [_] => true,
-        [a, b] => a != b,
-        _ => false,
+    let modes: Option<Vec<MotionMode>> = words.iter().map(motion).collect();
+    let Some(modes) = modes.filter(|modes| !modes.is_empty()) else {
+        return Err(text.mistake(Some(value.span()), expected));
     };
-    list.filter(is_list).ok_or_else(|| {
-        let what = "expected \"reverse\" (both gears), \"forward\", or a list of both";
-        text.mistake(Some(value.span()), what)
-    })
+    let twice = (1..modes.len()).find(|&i| modes[..i].contains(&modes[i]));
+    match twice {
+        Some(i) => {
+            let what = format!("{} stands there twice; {expected}", words[i]);
+            Err(text.mistake(Some(value.span()), what))
+        }
+        None => Ok(modes),
+    }
 }
 
 fn motion(value: &Value) -> Option<MotionMode> {
@@ -333,7 +337,23 @@ mod tests {
                 "motion = \"back\"\n",
                 "line 1, motion: expected \"reverse\" (both gears), \"forward\"",
             ),
-            ("motion = [\"reverse\", \"reverse\"]\n", "a list of both"),
+            (
+                "motion = [\"reverse\", \"reverse\"]\n",
+                "line 1, motion: \"reverse\" stands there twice",
+            ),
+            ("motion = []\n", "a list of both"),
+            (
+                "vehicles = \"own\"\n",
+                "line 1, vehicles: invalid type: string \"own\", expected a list, [\"own\", ...]",
+            ),
+            (
+                "[[scenarios]]\nbuiltin = \"narrow\"\n",
+                "line 2, builtin: invalid type: string \"narrow\", expected a list, [\"MAP\", ...]",
+            ),
+            (
+                "[planner]\nplanner = \"astar\"\n",
+                "expected a list of tables; hint: [[planner]]",
+            ),
             ("seeds = 0\n", "line 1, seeds: expected a count from 1"),
             (
                 "[[scenarios]]\nids = [\"a\"]\n",

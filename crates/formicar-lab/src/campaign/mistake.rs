@@ -19,22 +19,31 @@ impl Text {
         let Some(span) = span else {
             return anyhow!("{}: {what}", self.name);
         };
-        let before = &self.text[..span.start.min(self.text.len())];
-        let line = before.matches('\n').count() + 1;
+        let line = self.line_of(&span);
         let key = self.key_at(line);
+        let key = key.map_or(String::new(), |key| format!(", {key}"));
         anyhow!("{}, line {line}{key}: {what}", self.name)
     }
 
     /// What a syntax or type error of TOML tells, at its place.
     pub fn refused(&self, error: &toml::de::Error) -> anyhow::Error {
         let what = error.message().replace('\n', " ");
-        self.mistake(error.span(), what.trim())
+        let key = error.span().map(|span| self.key_at(self.line_of(&span)));
+        let list = list_of(key.flatten().unwrap_or_default());
+        let what = what.trim().replace("expected a sequence", &list);
+        self.mistake(error.span(), what)
+    }
+
+    /// The line that a place is in, from 1 on.
+    fn line_of(&self, span: &Range<usize>) -> usize {
+        let before = &self.text[..span.start.min(self.text.len())];
+        before.matches('\n').count() + 1
     }
 
     /// The key that a line sets or, inside a list over several lines, the one before it that does.
-    fn key_at(&self, line: usize) -> String {
+    fn key_at(&self, line: usize) -> Option<&str> {
         let lines: Vec<&str> = self.text.lines().take(line).collect();
-        let key = lines.iter().rev().find_map(|line| {
+        lines.iter().rev().find_map(|line| {
             let line = line.trim();
             if line.starts_with('[') && line.ends_with(']') && !line.contains(['"', ',']) {
                 return Some(line);
@@ -44,9 +53,24 @@ impl Text {
             // A string of a list may look like a key, but for its quotation mark.
             let is_key = |c: char| c.is_alphanumeric() || "._-".contains(c);
             (!key.is_empty() && key.chars().all(is_key)).then_some(key)
-        });
-        key.map_or(String::new(), |key| format!(", {key}"))
+        })
     }
+}
+
+/// What the list of a key looks like.
+fn list_of(key: &str) -> String {
+    let item = match key {
+        "builtin" => "\"MAP\"",
+        "ids" => "\"ID\"",
+        "vehicles" => "\"own\"",
+        "set" => "\"KEY=VALUE\"",
+        "command" => "\"PROGRAM\"",
+        table if table.starts_with('[') => {
+            return format!("expected a list of tables; hint: [{table}]");
+        }
+        _ => "\"WORD\"",
+    };
+    format!("expected a list, [{item}, ...]")
 }
 
 #[cfg(test)]

@@ -32,6 +32,6 @@ pub use record::{History, Improvement, ORIGIN_COLUMNS, Origin, Record, Told};
 pub use report::report;
 pub use row::{COLUMNS, KNOWN_BY, Row};
 pub use scenarios::ScenariosEntry;
-pub use store::Store;
+pub use store::{Store, csv_beside};
 pub use stored::Stored;
 pub use table::{read_csv, to_csv};

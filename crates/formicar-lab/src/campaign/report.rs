@@ -4,7 +4,9 @@
 
 use super::charts;
 use super::record::Record;
-use crate::compare::{Duel, METHOD, METRICS, Metric, SUCCESS, Scope, planners, runs_of};
+use crate::compare::{
+    Duel, METHOD, METRICS, Metric, SUCCESS, Scope, not_run, planners, runs_of, told_not_run,
+};
 use crate::report::{Field, Report, Section, Table};
 use crate::statistics::quartiles;
 use anyhow::Result;
@@ -42,14 +44,33 @@ fn intro(records: &[Record]) -> String {
     )
 }
 
-/// Every planner: how often it solves, and each metric.
+/// Every planner: how often it solves, and each metric; of runs that did not take place how many
+/// and why.
 fn of_planners(records: &[Record]) -> Section {
+    let names = planners(records).into_iter();
+    let runs: Vec<(&str, Vec<&Record>)> = names.map(|n| (n, runs_of(records, n))).collect();
+    let told = runs
+        .iter()
+        .filter_map(|(planner, runs)| Some(format!("`{planner}` {}", told_not_run(runs)?)));
+    let told: Vec<String> = told.collect();
+    let mut caption =
+        "Solved runs with the 95 % interval of the rate (Wilson); median [quartiles].".to_owned();
     let mut heading = vec!["planner", "solved"];
+    if !told.is_empty() {
+        heading.push("not run");
+        caption += " Runs that did not take place are in no rate and no test: ";
+        caption += &told.join("; ");
+        caption += ".";
+    }
     heading.extend(metrics().map(|metric| metric.name));
-    let mut table = Table::new("planners", &heading)
-        .captioned("Solved runs with the 95 % interval of the rate (Wilson); median [quartiles].");
-    for planner in planners(records) {
-        table.row(row_of(planner, &runs_of(records, planner), Field::Rate));
+    let mut table = Table::new("planners", &heading).captioned(&caption);
+    for (planner, runs) in &runs {
+        let mut row = row_of(planner, runs, Field::Rate);
+        if !told.is_empty() {
+            let n = runs.iter().filter(|run| not_run(run).is_some()).count();
+            row.insert(2, Field::Number(Some(n as f64), 0));
+        }
+        table.row(row);
     }
     Section::of_table("Planners", table)
 }
@@ -77,8 +98,9 @@ fn beside_the_first(records: &[Record]) -> Result<Vec<Section>> {
 fn of_scenarios(records: &[Record]) -> Section {
     let mut heading = vec!["scenario", "solved"];
     heading.extend(metrics().map(|metric| metric.name));
-    let mut table =
-        Table::new("scenarios", &heading).captioned("Over the seeds: median [quartiles].");
+    let mut table = Table::new("scenarios", &heading).captioned(
+        "Over the seeds: median [quartiles]; a dash where no run took place or none is solved.",
+    );
     let places = places(records);
     let is_plain = |i: usize| places.iter().all(|p| p[i] == places[0][i]);
     let plain = [false, is_plain(1), is_plain(2)];
@@ -120,7 +142,12 @@ fn metrics() -> impl Iterator<Item = &'static Metric> {
 
 fn row_of(name: &str, runs: &[&Record], solved: fn(usize, usize) -> Field) -> Vec<Field> {
     let n_solved = runs.iter().filter(|run| run.row.is_solved()).count();
-    let mut row = vec![Field::words(name), solved(n_solved, runs.len())];
+    let n_run = runs.iter().filter(|run| not_run(run).is_none()).count();
+    let solved = match n_run {
+        0 => Field::Number(None, 0),
+        _ => solved(n_solved, n_run),
+    };
+    let mut row = vec![Field::words(name), solved];
     row.extend(metrics().map(|metric| {
         let values: Vec<f64> = runs.iter().filter_map(|run| metric.of(run)).collect();
         Field::Spread(quartiles(&values), metric.n_decimals)
@@ -175,6 +202,31 @@ mod tests {
             text.contains("| s two | 2/3 | - | - | 21.500 [21.250, 21.750] |"),
             "{text}"
         );
+    }
+
+    #[test]
+    fn runs_that_did_not_take_place_are_told_and_in_no_rate() {
+        let mut records = vec![
+            record("s", "one", 0, Some(10.0)),
+            record("s", "two", 0, None),
+            record("t", "two", 0, Some(9.0)),
+            record("s", "three", 0, None),
+        ];
+        let refused = json!({"status": "invalid_request", "reason": "the vehicle is a point"});
+        records[1].row.fill(&refused);
+        records[3].row.fill(&json!({"status": "unavailable"}));
+        let text = markdown(&report("c", &records).unwrap());
+        for part in [
+            "`two` 1 (invalid request: the vehicle is a point); `three` 1 (unavailable).",
+            "| planner | solved | not run | first path ms |",
+            "| one | 1/1 [21, 100] % | 0 |",
+            "| two | 1/1 [21, 100] % | 1 |",
+            "| three | - | 1 |",
+            "| s two | - | - |",
+            "| t two | 1/1 | - |",
+        ] {
+            assert!(text.contains(part), "no {part} in {text}");
+        }
     }
 
     #[test]

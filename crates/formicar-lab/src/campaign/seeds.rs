@@ -24,7 +24,7 @@ pub(super) fn seeds(value: Option<&Spanned<Value>>, text: &Text) -> Result<Vec<u
         _ => None,
     };
     let seeds = seeds.filter(|seeds| !seeds.is_empty());
-    let seeds = seeds.ok_or_else(|| wrong(value.span(), text, EXPECTED))?;
+    let seeds = seeds.ok_or_else(|| wrong(value.span(), text, &fault(value.get_ref())))?;
     let mut sorted = seeds.clone();
     sorted.sort_unstable();
     match sorted.windows(2).find(|pair| pair[0] == pair[1]) {
@@ -33,6 +33,17 @@ pub(super) fn seeds(value: Option<&Spanned<Value>>, text: &Text) -> Result<Vec<u
             Err(wrong(value.span(), text, &what))
         }
         None => Ok(seeds),
+    }
+}
+
+/// What is wrong with a value that names no seeds.
+fn fault(value: &Value) -> String {
+    let bound = |name: &str| value.get(name).and_then(Value::as_integer);
+    match (bound("from"), bound("to")) {
+        (Some(from), Some(to)) if from > to => {
+            format!("from = {from} must not exceed to = {to}; {EXPECTED}")
+        }
+        _ => EXPECTED.to_owned(),
     }
 }
 
@@ -90,5 +101,7 @@ mod tests {
             let told = read(wrong).unwrap_err().to_string();
             assert!(told.starts_with("c.toml, line 2, seeds: "), "{told}");
         }
+        let told = read("{ from = 5, to = 2 }").unwrap_err().to_string();
+        assert!(told.contains("from = 5 must not exceed to = 2"), "{told}");
     }
 }

@@ -7,7 +7,7 @@
 use super::lock::Lock;
 use super::plan::Campaign;
 use super::record::Record;
-use super::stored::{SCHEMA, Stored, check_schema, columns, fact};
+use super::stored::{SCHEMA, Stored, check_schema, columns, fact, no_store};
 use anyhow::{Context, Result, bail};
 use rusqlite::types::Value;
 use rusqlite::{Connection, params_from_iter};
@@ -30,6 +30,7 @@ impl Store {
     /// A store of another campaign, one that another process writes to, and a file that is none.
     pub fn open(path: &Path, campaign: &Campaign, version: &str) -> Result<Self> {
         let name = || path.display().to_string();
+        check_place(path)?;
         let lock = Lock::of(path)?;
         let is_new = !path.exists();
         let connection = Connection::open(path).with_context(name)?;
@@ -39,7 +40,7 @@ impl Store {
             _lock: lock,
         };
         // A kill between the making of the file and its first commit leaves it empty.
-        if is_new || store.is_empty().with_context(name)? {
+        if is_new || store.is_empty().map_err(no_store).with_context(name)? {
             store.create(campaign, version).with_context(name)?;
         } else {
             check_schema(&store.connection).with_context(name)?;
@@ -155,6 +156,42 @@ impl Store {
             campaign.runs.len(),
             n_same.count()
         )
+    }
+}
+
+/// The table that takes the rows of a store in the end.
+///
+/// # Errors
+/// A store that the table would be written over.
+pub fn csv_beside(store: &Path) -> Result<PathBuf> {
+    let csv = store.with_extension("csv");
+    let is_named_so = store
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("csv"));
+    // Two names may be links to one file.
+    let real = |path: &Path| path.canonicalize().ok();
+    let is_one = real(store).is_some_and(|store| real(&csv) == Some(store));
+    if is_named_so || is_one {
+        bail!(
+            "--store {}: the rows are written to {} in the end, over the store; hint: --store {}",
+            store.display(),
+            csv.display(),
+            store.with_extension("sqlite").display()
+        );
+    }
+    Ok(csv)
+}
+
+/// Refuses a place whose folder is not there.
+fn check_place(path: &Path) -> Result<()> {
+    let folder = path.parent().filter(|folder| *folder != Path::new(""));
+    match folder.filter(|folder| !folder.is_dir()) {
+        Some(folder) => bail!(
+            "{}: there is no folder {}; hint: make it first",
+            path.display(),
+            folder.display()
+        ),
+        None => Ok(()),
     }
 }
 
@@ -278,6 +315,32 @@ mod tests {
             error.contains("a.sqlite") && error.contains("not a database"),
             "{error}"
         );
-        assert!(Stored::read(&path).is_err());
+        let error = format!("{:#}", Stored::read(&path).unwrap_err());
+        for part in ["a.sqlite", "no store of campaigns", "bench --store"] {
+            assert!(error.contains(part), "{error}");
+        }
+        let nowhere = folder.path().join("none").join("a.sqlite");
+        let error = Store::open(&nowhere, &campaign(3), "0.1.0").unwrap_err();
+        assert!(error.to_string().contains("there is no folder"), "{error}");
+    }
+
+    #[test]
+    fn no_table_is_written_over_its_store() {
+        let csv = csv_beside(Path::new("a/z.sqlite")).unwrap();
+        assert_eq!(csv, Path::new("a/z.csv"));
+        for name in ["z.csv", "z.CSV"] {
+            let error = csv_beside(Path::new(name)).unwrap_err().to_string();
+            assert!(error.contains("hint: --store z.sqlite"), "{error}");
+        }
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn no_table_is_written_over_a_store_that_it_is_a_link_to() {
+        let folder = tempfile::tempdir().unwrap();
+        let [store, csv] = ["z.sqlite", "z.csv"].map(|name| folder.path().join(name));
+        std::fs::write(&store, "").unwrap();
+        std::os::unix::fs::symlink(&store, &csv).unwrap();
+        assert!(csv_beside(&store).is_err());
     }
 }

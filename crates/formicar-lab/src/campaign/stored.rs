@@ -9,6 +9,7 @@ use anyhow::{Context, Result, anyhow, bail};
 use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OpenFlags, OptionalExtension};
 use std::collections::BTreeMap;
+use std::fmt::Display;
 use std::path::Path;
 
 /// Name and version of the tables.
@@ -88,11 +89,18 @@ fn text_of(value: ValueRef) -> Result<serde_json::Value> {
     })
 }
 
+/// What a store is, for those who name another file.
+const EXPECTED: &str = "expected the SQLite file that `bench --store F.sqlite` fills";
+
+/// That a file is none of ours.
+pub(super) fn no_store(error: impl Display) -> anyhow::Error {
+    anyhow!("it is no store of campaigns ({error}); {EXPECTED}")
+}
+
 pub(super) fn check_schema(connection: &Connection) -> Result<()> {
-    let schema = fact(connection, "schema")
-        .map_err(|error| anyhow!("it is no store of campaigns ({error}); hint: another --store"))?;
+    let schema = fact(connection, "schema").map_err(no_store)?;
     if schema != SCHEMA {
-        bail!("its tables are {schema:?}, this version reads {SCHEMA:?}; hint: another --store");
+        bail!("its tables are {schema:?}, this version reads {SCHEMA:?}; {EXPECTED}");
     }
     Ok(())
 }

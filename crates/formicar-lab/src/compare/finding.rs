@@ -5,7 +5,7 @@ use super::pairs::{Pair, Pairs};
 use crate::statistics::{bootstrap_median, holm, quantile, vargha_delaney_a, wilcoxon};
 use formicar::numeric::Seed;
 use serde::Serialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The level of the tests, over all metrics of a table.
 const LEVEL: f64 = 0.05;
@@ -45,11 +45,16 @@ impl Verdict {
 pub struct Finding {
     /// Its name.
     pub metric: &'static str,
-    /// Pairs in which both sides have a value.
+    /// Pairs in which both sides have a value. Where all seeds of a scenario give the same result
+    /// one of them counts.
     pub n_pairs: usize,
+    /// The same with all seeds.
+    pub n_all_pairs: usize,
+    /// Scenarios of which one of several seeds counts.
+    pub n_still: usize,
     /// Pairs of equal values.
     pub n_equal: usize,
-    /// The median of each side; of success the share.
+    /// The median of each side; of success the share over all seeds.
     pub of_sides: Option<[f64; 2]>,
     /// The median of the ratios second over first, with its 95 % bootstrap interval around it.
     pub ratio: Option<[f64; 3]>,
@@ -86,30 +91,63 @@ pub(super) fn findings(pairs: &Pairs, scope: Scope) -> Vec<Finding> {
     findings.collect()
 }
 
-/// The values of a metric, pair by pair, by scenario.
-struct Values {
-    pairs: Vec<[f64; 2]>,
-    by_scenario: BTreeMap<[String; 3], [Vec<f64>; 2]>,
+/// Of which results one of several seeds counts, in words; none where there are none.
+pub(super) fn repeats(findings: &[Finding]) -> Option<String> {
+    let still = findings.iter().filter(|finding| finding.n_still > 0);
+    let still: Vec<String> = still
+        .map(|f| format!("{} on {}", f.metric, f.n_still))
+        .collect();
+    (!still.is_empty()).then(|| {
+        format!(
+            "Where the seed does not change a result on either side, one seed of the scenario \
+             counts in the tests. Scenarios of which that is so: {}.",
+            still.join(", ")
+        )
+    })
 }
 
-impl Values {
-    fn new(metric: &Metric, pairs: &[Pair]) -> Self {
-        let (mut both, mut by_scenario) = (Vec::new(), BTreeMap::<_, [Vec<f64>; 2]>::new());
-        let counts = |pair: &&Pair| metric.kind == Kind::Measurement || !pair.repeats;
-        for pair in pairs.iter().filter(counts) {
-            let (Some(a), Some(b)) = (metric.of(pair.a), metric.of(pair.b)) else {
-                continue;
-            };
-            both.push([a, b]);
-            let place = ["scenario", "vehicle", "motion"].map(|c| pair.a.get(c).to_owned());
-            let [of_a, of_b] = by_scenario.entry(place).or_default();
-            of_a.push(a);
-            of_b.push(b);
+/// The values of a metric, pair by pair, by scenario.
+struct Values<'a> {
+    /// The pairs that count.
+    pairs: Vec<[f64; 2]>,
+    /// All pairs.
+    by_scenario: BTreeMap<[&'a str; 3], Vec<[f64; 2]>>,
+    /// Scenarios of which one of several pairs counts.
+    n_still: usize,
+}
+
+impl<'a> Values<'a> {
+    fn new(metric: &Metric, pairs: &[Pair<'a>]) -> Self {
+        let both = |pair: &Pair| Some([metric.of(pair.a)?, metric.of(pair.b)?]);
+        let all = pairs
+            .iter()
+            .filter_map(|pair| Some((pair.scenario(), both(pair)?)));
+        let all: Vec<([&str; 3], [f64; 2])> = all.collect();
+        let mut by_scenario = BTreeMap::<_, Vec<_>>::new();
+        for (scenario, values) in &all {
+            by_scenario.entry(*scenario).or_default().push(*values);
         }
+        // Runs that only repeat each other are no more evidence than one of them.
+        let repeats =
+            |values: &[[f64; 2]]| values.len() > 1 && values.iter().all(|v| *v == values[0]);
+        let still = by_scenario
+            .iter()
+            .filter(|(_, values)| metric.kind == Kind::Result && repeats(values));
+        let still: BTreeSet<[&str; 3]> = still.map(|(scenario, _)| *scenario).collect();
+        let mut met = BTreeSet::new();
+        let counted = all
+            .iter()
+            .filter(|(at, _)| !still.contains(at) || met.insert(*at));
         Self {
-            pairs: both,
+            pairs: counted.map(|(_, values)| *values).collect(),
+            n_still: still.len(),
             by_scenario,
         }
+    }
+
+    /// All pairs, those too that repeat others.
+    fn all(&self) -> impl Iterator<Item = &[f64; 2]> {
+        self.by_scenario.values().flatten()
     }
 
     fn differences(&self) -> Vec<f64> {
@@ -129,11 +167,11 @@ impl Values {
     }
 
     fn above(&self) -> Option<f64> {
-        let weighted = self.by_scenario.values().filter_map(|[a, b]| {
-            let above = vargha_delaney_a(b, a)?;
-            Some(above * a.len() as f64)
+        let weighted = self.by_scenario.values().filter_map(|pairs| {
+            let side = |i: usize| pairs.iter().map(|pair| pair[i]).collect::<Vec<f64>>();
+            Some(vargha_delaney_a(&side(1), &side(0))? * pairs.len() as f64)
         });
-        let n = self.pairs.len();
+        let n = self.all().count();
         (n > 0).then(|| weighted.sum::<f64>() / n as f64)
     }
 
@@ -155,11 +193,11 @@ impl Values {
 
     fn of_sides(&self, metric: &Metric) -> Option<[f64; 2]> {
         let side = |i: usize| -> Option<f64> {
-            let values: Vec<f64> = self.pairs.iter().map(|pair| pair[i]).collect();
             if metric.name == SUCCESS {
-                let n = values.len();
-                return (n > 0).then(|| values.iter().sum::<f64>() / n as f64);
+                let n = self.all().count();
+                return (n > 0).then(|| self.all().map(|pair| pair[i]).sum::<f64>() / n as f64);
             }
+            let values: Vec<f64> = self.pairs.iter().map(|pair| pair[i]).collect();
             quantile(&values, 0.5)
         };
         Some([side(0)?, side(1)?])
@@ -170,6 +208,8 @@ impl Values {
         Finding {
             metric: metric.name,
             n_pairs: self.pairs.len(),
+            n_all_pairs: self.all().count(),
+            n_still: self.n_still,
             n_equal: self.pairs.iter().filter(|[a, b]| a == b).count(),
             of_sides: self.of_sides(metric),
             ratio: self.ratio().filter(|_| !is_success),

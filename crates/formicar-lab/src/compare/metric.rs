@@ -1,5 +1,6 @@
 //! What is compared.
 
+use super::not_run::not_run;
 use crate::campaign::Record;
 use serde::Serialize;
 
@@ -55,7 +56,7 @@ pub struct Metric {
     pub kind: Kind,
 }
 
-/// The name of the metric that every run has: 1 where a certified path was returned, else 0.
+/// The name of the metric of every run that took place: 1 where a certified path was returned, else 0.
 pub const SUCCESS: &str = "success";
 
 /// The metrics in the order of the tables.
@@ -126,11 +127,14 @@ const fn metric(
 }
 
 impl Metric {
-    /// Its value of a run; none of a run without a certified path, but for success.
+    /// Its value of a run; none of a run without a certified path, but for success, which only
+    /// runs that did not take place have none of.
     pub fn of(&self, record: &Record) -> Option<f64> {
         let is_solved = record.row.is_solved();
         if self.name == SUCCESS {
-            return Some(f64::from(u8::from(is_solved)));
+            return not_run(record)
+                .is_none()
+                .then(|| f64::from(u8::from(is_solved)));
         }
         let value = record.row.number(self.column).filter(|_| is_solved)?;
         Some(value * self.scale).filter(|v| v.is_finite())

@@ -3,6 +3,7 @@
 
 mod finding;
 mod metric;
+mod not_run;
 mod pairs;
 mod tables;
 
@@ -10,9 +11,11 @@ pub use finding::{Finding, Verdict};
 pub use metric::{Better, Kind, METRICS, Metric, SUCCESS, Scope};
 pub use tables::METHOD;
 
+pub(crate) use not_run::{not_run, told_not_run};
+
 use crate::campaign::Record;
 use anyhow::{Result, bail};
-use pairs::{Pair, Pairs};
+use pairs::Pairs;
 use serde::Serialize;
 
 /// Runs under a name.
@@ -44,7 +47,8 @@ pub struct Duel {
     pub n_alone: [usize; 2],
     /// What is to be known about the comparison.
     pub notes: Vec<String>,
-    /// Runs that the first solves and the second does not, as scenario and seed.
+    /// Runs that the first solves and the second does not: scenario, seed, vehicle and motion
+    /// where there are several, and the status where the second did not run.
     pub lost: Vec<String>,
     /// Runs that the second solves and the first does not.
     pub gained: Vec<String>,
@@ -106,30 +110,23 @@ impl Duel {
     pub fn new(a: &[&Record], b: &[&Record], scope: Scope) -> Result<Self> {
         let pairs = Pairs::new(a, b)?;
         let planner = |of: &[&Record]| of.first().map_or("", |r| r.get("planner")).to_owned();
+        let findings = finding::findings(&pairs, scope);
         let notes = [
             pairs.unlike_measurements().filter(|_| scope == Scope::All),
             pairs.unlike_limits(),
-            pairs.repeats(),
+            pairs.not_run(),
+            finding::repeats(&findings),
         ];
-        let solved = |pair: &&Pair| [pair.a.row.is_solved(), pair.b.row.is_solved()];
-        let names = |wanted: [bool; 2]| {
-            let pairs = pairs.pairs.iter().filter(|pair| solved(pair) == wanted);
-            pairs.map(|pair| run_name(pair.a)).collect()
-        };
         Ok(Self {
             planners: [planner(a), planner(b)],
             n_pairs: pairs.pairs.len(),
             n_alone: pairs.n_alone,
-            lost: names([true, false]),
-            gained: names([false, true]),
-            findings: finding::findings(&pairs, scope),
+            lost: pairs.names([true, false]),
+            gained: pairs.names([false, true]),
+            findings,
             notes: notes.into_iter().flatten().collect(),
         })
     }
-}
-
-fn run_name(record: &Record) -> String {
-    format!("{} seed {}", record.get("scenario"), record.get("seed"))
 }
 
 /// The planners of runs, in the order of their first.

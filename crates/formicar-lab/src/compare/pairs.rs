@@ -1,6 +1,6 @@
 //! Runs of two sides on the same scenario, vehicle, motion mode and seed.
 
-use super::metric::{Kind, METRICS};
+use super::not_run::{not_run, told_not_run};
 use crate::campaign::Record;
 use anyhow::{Result, bail};
 use std::collections::{BTreeMap, BTreeSet};
@@ -10,8 +10,6 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(super) struct Pair<'a> {
     pub(super) a: &'a Record,
     pub(super) b: &'a Record,
-    /// Whether another seed has given the same results before, where all seeds of a scenario do.
-    pub(super) repeats: bool,
 }
 
 /// The pairs of two sides, in the order of the first.
@@ -36,19 +34,17 @@ impl<'a> Pairs<'a> {
     /// Scenarios of one name whose maps or vehicles are not the same; sides without a pair.
     pub(super) fn new(a: &[&'a Record], b: &[&'a Record]) -> Result<Self> {
         let of_b: BTreeMap<Place, &Record> = b.iter().map(|r| (place(r), *r)).collect();
-        let mut pairs = Vec::new();
-        for record in a {
+        let (mut pairs, mut met) = (Vec::new(), BTreeSet::new());
+        for record in a.iter().filter(|record| met.insert(place(record))) {
             if let Some(other) = of_b.get(&place(record)) {
                 check(record, other)?;
                 pairs.push(Pair {
                     a: record,
                     b: other,
-                    repeats: false,
                 });
             }
         }
-        let n_alone = [a.len() - pairs.len(), of_b.len() - pairs.len()];
-        mark_repeats(&mut pairs);
+        let n_alone = [met.len() - pairs.len(), of_b.len() - pairs.len()];
         Ok(Self { pairs, n_alone })
     }
 
@@ -80,17 +76,44 @@ impl<'a> Pairs<'a> {
         None
     }
 
-    /// On how many scenarios the seed changes nothing, in words.
-    pub(super) fn repeats(&self) -> Option<String> {
-        let repeats = self.pairs.iter().filter(|pair| pair.repeats);
-        let scenarios: BTreeSet<_> = repeats.map(|pair| scenario(pair.a)).collect();
-        (!scenarios.is_empty()).then(|| {
+    /// Which runs of each side count for nothing, in words.
+    pub(super) fn not_run(&self) -> Option<String> {
+        let runs = |side: fn(&Pair<'a>) -> &'a Record| -> Vec<&Record> {
+            self.pairs.iter().map(side).collect()
+        };
+        let of_sides = [
+            ("first", runs(|pair| pair.a)),
+            ("second", runs(|pair| pair.b)),
+        ];
+        let told = of_sides
+            .iter()
+            .filter_map(|(side, runs)| Some(format!("of the {side} side {}", told_not_run(runs)?)));
+        let told: Vec<String> = told.collect();
+        (!told.is_empty()).then(|| {
             format!(
-                "On {} scenarios the seed changes nothing on either side: there one seed counts, \
-                 but for times and memory.",
-                scenarios.len()
+                "Pairs with a run that did not take place are left out of rates and tests: {}.",
+                told.join("; ")
             )
         })
+    }
+
+    /// Runs that one side alone solves, by what tells them apart; how the other side refused is
+    /// told behind them. `solved` is whether each side does.
+    pub(super) fn names(&self, solved: [bool; 2]) -> Vec<String> {
+        let Some(first) = self.pairs.first().map(Pair::scenario) else {
+            return Vec::new();
+        };
+        let varies = |i: usize| self.pairs.iter().any(|p| p.scenario()[i] != first[i]);
+        let is_named = [true, varies(1), varies(2)];
+        let wanted = |pair: &&Pair| [pair.a.row.is_solved(), pair.b.row.is_solved()] == solved;
+        let name = |pair: &Pair| {
+            let words = pair.scenario().into_iter().zip(is_named);
+            let words: Vec<&str> = words.filter(|(_, named)| *named).map(|(w, _)| w).collect();
+            let other = if solved[0] { pair.b } else { pair.a };
+            let status = not_run(other).map_or(String::new(), |status| format!(" ({status})"));
+            format!("{} seed {}{status}", words.join(" "), pair.a.get("seed"))
+        };
+        self.pairs.iter().filter(wanted).map(name).collect()
     }
 
     /// Other limits of the two sides, in words.
@@ -106,26 +129,10 @@ impl<'a> Pairs<'a> {
     }
 }
 
-/// Scenario, vehicle, motion.
-fn scenario(record: &Record) -> [&str; 3] {
-    ["scenario", "vehicle", "motion"].map(|column| record.get(column))
-}
-
-/// Runs that only repeat each other are no more evidence than one of them.
-fn mark_repeats(pairs: &mut [Pair]) {
-    let results = |pair: &Pair| -> Vec<[Option<f64>; 2]> {
-        let metrics = METRICS.iter().filter(|metric| metric.kind == Kind::Result);
-        metrics.map(|m| [m.of(pair.a), m.of(pair.b)]).collect()
-    };
-    let mut of_scenarios: BTreeMap<[&str; 3], Vec<usize>> = BTreeMap::new();
-    for (i, pair) in pairs.iter().enumerate() {
-        of_scenarios.entry(scenario(pair.a)).or_default().push(i);
-    }
-    for places in of_scenarios.into_values() {
-        let first = results(&pairs[places[0]]);
-        if places.iter().all(|&i| results(&pairs[i]) == first) {
-            places.iter().skip(1).for_each(|&i| pairs[i].repeats = true);
-        }
+impl<'a> Pair<'a> {
+    /// Scenario, vehicle, motion.
+    pub(super) fn scenario(&self) -> [&'a str; 3] {
+        ["scenario", "vehicle", "motion"].map(|column| self.a.get(column))
     }
 }
 

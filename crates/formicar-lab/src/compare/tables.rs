@@ -7,7 +7,8 @@ use crate::report::{Block, Field, Report, Section, Table};
 pub const METHOD: &str = "Paired by scenario and seed. Medians over the pairs in which both sides \
     return a certified path (of success the share over all pairs); `ratio`, the median of the \
     ratios second over first with its 95 % bootstrap interval; `p`, the probability of Wilcoxon's \
-    signed-rank test, adjusted after Holm over the table; `A`, Vargha & Delaney's probability that \
+    signed-rank test, adjusted after Holm over the table, over the `pairs` that count: one of a \
+    scenario on which the seed does not change the metric; `A`, Vargha & Delaney's probability that \
     the second side's value is above the first's, averaged over scenarios. A difference is told \
     where `p` is below 0.05, of times and memory only where the median ratio is off 1 by 1 % or \
     more.";
@@ -74,7 +75,7 @@ impl Duel {
 fn row(finding: &Finding) -> Vec<Field> {
     let metric = METRICS.iter().find(|metric| metric.name == finding.metric);
     let n_decimals = metric.map_or(3, |metric| metric.n_decimals);
-    let n = finding.n_pairs;
+    let n = finding.n_all_pairs;
     let side = |i: usize| match finding.of_sides {
         Some(shares) if finding.metric == SUCCESS => {
             Field::Count((shares[i] * n as f64).round() as usize, n)
@@ -85,10 +86,10 @@ fn row(finding: &Finding) -> Vec<Field> {
         Field::words(finding.metric),
         side(0),
         side(1),
-        Field::Number(Some(n as f64), 0),
+        Field::Number(Some(finding.n_pairs as f64), 0),
         Field::Number(Some(finding.n_equal as f64), 0),
         Field::Spread(finding.ratio, 3),
-        Field::Number(finding.p, 4),
+        Field::Probability(finding.p),
         Field::Number(finding.above, 2),
         Field::words(finding.verdict.words()),
     ]

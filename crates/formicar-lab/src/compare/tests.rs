@@ -45,6 +45,11 @@ fn other(i: usize) -> serde_json::Value {
     })
 }
 
+/// Of a program that is not installed.
+fn unavailable(_: usize) -> serde_json::Value {
+    json!({"status": "unavailable", "valid": null, "reason": "no OMPL"})
+}
+
 /// As the base, with two runs lost.
 fn failing(i: usize) -> serde_json::Value {
     let mut values = base(i);
@@ -93,7 +98,8 @@ fn a_side_does_not_differ_from_itself() {
     let found = compare(&a, &a);
     assert!(!found.is_worse());
     let findings = &found.duels[0].findings;
-    assert!(findings.iter().all(|f| f.p.is_none() && f.n_equal == 24));
+    let is_equal = |f: &Finding| f.p.is_none() && f.n_equal == f.n_pairs && f.n_all_pairs == 24;
+    assert!(findings.iter().all(is_equal));
 }
 
 #[test]
@@ -136,7 +142,82 @@ fn seeds_that_change_nothing_count_once() {
         findings.find(|f| f.metric == metric).unwrap().n_pairs
     };
     assert_eq!((n_pairs("length m"), n_pairs("query ms")), (12, 24));
-    assert!(duel.notes[0].starts_with("On 12 scenarios the seed changes nothing"));
+    assert!(duel.notes[0].contains("success on 12, length m on 12"));
+}
+
+/// On two scenarios the first side alone finds paths, of other lengths with every seed; on
+/// fourteen the second alone finds one, always the same.
+#[test]
+fn success_counts_once_where_only_the_length_varies() {
+    let is_of_first = |i: usize| i < 32;
+    let scenario = move |i: usize| if is_of_first(i) { i / 16 } else { i - 30 };
+    let run = |i: usize, is_solved: bool| {
+        let mut record = Record::default();
+        record.row.fill(&json!({
+            "scenario": format!("s{}", scenario(i)), "seed": if is_of_first(i) { i % 16 } else { 0 },
+            "status": if is_solved { "found" } else { "no_path" }, "valid": is_solved,
+            "length_m": if is_of_first(i) { 10.0 + i as f64 } else { 10.0 },
+        }));
+        record
+    };
+    let side = |name: &str, solves: &dyn Fn(usize) -> bool| Side {
+        name: name.to_owned(),
+        records: (0..46).map(|i| run(i, solves(i))).collect(),
+    };
+    let found = compare(&side("a", &is_of_first), &side("b", &|i| !is_of_first(i)));
+    let success = &found.duels[0].findings[0];
+    let counts = (success.n_pairs, success.n_all_pairs, success.n_still);
+    assert_eq!(counts, (16, 46, 2));
+    assert_eq!(success.verdict, Verdict::Better);
+    // The shares are of all runs, as everywhere.
+    assert_eq!(success.of_sides, Some([32.0 / 46.0, 14.0 / 46.0]));
+}
+
+#[test]
+fn runs_that_did_not_take_place_are_in_no_rate_and_no_test() {
+    let half = |i: usize| if i < 12 { base(i) } else { unavailable(i) };
+    let found = compare(&side("a", "p", base), &side("b", "q", half));
+    let duel = &found.duels[0];
+    let success = &duel.findings[0];
+    assert_eq!(
+        (success.n_all_pairs, success.of_sides),
+        (12, Some([1.0; 2]))
+    );
+    assert_eq!(duel.notes.len(), 2);
+    assert!(
+        duel.notes[0].contains("of the second side 12 (unavailable: no OMPL)"),
+        "{}",
+        duel.notes[0]
+    );
+    // Whoever asks whether anything is lost is told all the same.
+    assert_eq!(duel.lost[0], "s6 seed 0 (unavailable)");
+}
+
+#[test]
+fn runs_of_several_vehicles_are_told_apart() {
+    let (mut a, mut b) = (side("a", "p", base), side("b", "p", failing));
+    for vehicle in ["own", "f1tenth"] {
+        for side in [&mut a, &mut b] {
+            let mut records = side.records[..2].to_vec();
+            for record in &mut records {
+                record.origin.set("vehicle", vehicle);
+            }
+            side.records.extend(records);
+        }
+    }
+    for side in [&mut a, &mut b] {
+        side.records.drain(..24);
+        // Tables that are joined may hold a run twice.
+        side.records.extend_from_within(..1);
+    }
+    let lost = &compare(&a, &b).duels[0].lost;
+    let names = [
+        "own seed 0",
+        "own seed 1",
+        "f1tenth seed 0",
+        "f1tenth seed 1",
+    ];
+    assert_eq!(lost, &names.map(|name| format!("s0 {name}")));
 }
 
 #[test]

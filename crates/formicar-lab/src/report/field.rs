@@ -12,7 +12,7 @@ pub enum Field {
     Verdict(Verdict),
     /// A number with so many decimals; a dash for none.
     Number(Option<f64>, usize),
-    /// A probability: four decimals, or a power of ten where they would be noughts.
+    /// A probability: four decimals, or that it is less than the least of them.
     Probability(Option<f64>),
     /// A number with its interval, or a median with its quartiles: `[low, value, high]`.
     Spread(Option<[f64; 3]>, usize),
@@ -98,7 +98,7 @@ fn decimal(value: f64, n_decimals: usize) -> String {
 
 fn probability(p: f64) -> String {
     if p < 1e-4 {
-        format!("{p:.1e}")
+        "< 0.0001".to_owned()
     } else {
         decimal(p, 4)
     }
@@ -117,7 +117,7 @@ mod tests {
             (Field::Number(Some(-0.5), 1), "-0.5"),
             (Field::Number(None, 1), "-"),
             (Field::Probability(Some(0.012_34)), "0.0123"),
-            (Field::Probability(Some(1.3e-9)), "1.3e-9"),
+            (Field::Probability(Some(1.3e-9)), "< 0.0001"),
             (Field::Verdict(Verdict::InPart), "holds in part"),
             (Field::Spread(Some([1.0, 2.0, 3.0]), 0), "2 [1, 3]"),
             (Field::Spread(None, 0), "-"),

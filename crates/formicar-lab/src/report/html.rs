@@ -201,7 +201,11 @@ fn verdict_mark(verdict: Verdict) -> String {
 
 /// A number with its name, for whoever looks for it.
 fn number(part: &NamedPart) -> String {
-    format!("<data value=\"{}\">{}</data>", part.key, part.text)
+    format!(
+        "<data value=\"{}\">{}</data>",
+        part.key,
+        escaped(&part.text)
+    )
 }
 
 fn provenance(text: &mut String, page: &Page) {
@@ -256,8 +260,9 @@ mod tests {
 
     #[test]
     fn a_page_holds_everything_and_loads_nothing() {
-        let mut table = Table::new("t", &["who", "what"]).captioned("Of `x` < y.");
-        table.row(vec![Field::words("<a>"), Field::Number(Some(2.0), 1)]);
+        let mut table = Table::new("t", &["who", "what", "p"]).captioned("Of `x` < y.");
+        let p = Field::Probability(Some(1e-6));
+        table.row(vec![Field::words("<a>"), Field::Number(Some(2.0), 1), p]);
         let figure = Figure {
             caption: "A line.".to_owned(),
             svg: "<svg></svg>".to_owned(),
@@ -280,6 +285,7 @@ mod tests {
             "<title>A &amp; B</title>",
             "<p class=\"caption\" id=\"about-t\">Of <code>x</code> &lt; y.</p>",
             "<th scope=\"row\" class=\"words\">&lt;a&gt;</th><td><data value=\"pTAAboveWhat\">2.0</data></td>",
+            "<data value=\"pTAAboveP\">&lt; 0.0001</data>",
             "<b>Figure 1.</b> A line.",
             "<dt>seed</dt><dd>0</dd>",
             "<pre>{&quot;n&quot;: 1}</pre>",

@@ -12,7 +12,12 @@ pub fn latex(report: &Report) -> String {
     for table in report.tables() {
         let named = keys.name(table);
         for part in named.iter().flatten().flatten() {
-            let _ = writeln!(macros, "\\newcommand{{\\{}}}{{{}}}", part.key, part.text);
+            let _ = writeln!(
+                macros,
+                "\\newcommand{{\\{}}}{{{}}}",
+                part.key,
+                escaped(&part.text)
+            );
         }
         tables.push_str(&of_table(report, table, &named));
     }
@@ -101,8 +106,9 @@ mod tests {
 
     #[test]
     fn numbers_are_macros_and_words_are_escaped() {
-        let mut table = Table::new("t", &["who", "share %"]).captioned("Of `a_b` & c.");
-        table.row(vec![Field::words("x_1"), Field::Rate(3, 3)]);
+        let mut table = Table::new("t", &["who", "share %", "p"]).captioned("Of `a_b` & c.");
+        let p = Field::Probability(Some(1e-6));
+        table.row(vec![Field::words("x_1"), Field::Rate(3, 3), p]);
         let report = Report {
             name: "p".to_owned(),
             sections: vec![Section::of_table("Part", table)],
@@ -114,6 +120,10 @@ mod tests {
             "{text}"
         );
         assert!(
+            text.contains("\\newcommand{\\pTXOneP}{$<$ 0.0001}"),
+            "{text}"
+        );
+        assert!(
             text.contains("x\\_1 & \\pTXOneShare{}/\\pTXOneShareOf{} ["),
             "{text}"
         );
@@ -121,7 +131,10 @@ mod tests {
             text.contains("\\caption{Of \\texttt{a\\_b} \\& c.}"),
             "{text}"
         );
-        assert!(text.contains("] \\% \\\\\n\\bottomrule"), "{text}");
-        assert!(text.contains("\\begin{tabular}{lr}"), "{text}");
+        assert!(
+            text.contains("] \\% & \\pTXOneP{} \\\\\n\\bottomrule"),
+            "{text}"
+        );
+        assert!(text.contains("\\begin{tabular}{lrr}"), "{text}");
     }
 }

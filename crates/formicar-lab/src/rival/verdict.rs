@@ -82,6 +82,13 @@ fn with_slack(mut report: Report) -> Report {
         ViolationKind::Start => violation.amount > START_TOLERANCE,
         _ => true,
     });
+    let starts = report.violations.iter_mut();
+    for violation in starts.filter(|v| v.kind == ViolationKind::Start) {
+        let limit = |amount: f64| format!("the limit is {amount} ");
+        let told = (limit(violation.limit), limit(START_TOLERANCE));
+        violation.message = violation.message.replace(&told.0, &told.1);
+        violation.limit = START_TOLERANCE;
+    }
     report.valid = report.violations.is_empty();
     report
 }
@@ -116,7 +123,9 @@ mod tests {
         assert_eq!(of(&line(4.0, 12.0, 0.0)).reason(), None);
         assert!(of(&line(4.0, 12.0, 0.0005)).report.valid);
         let off = of(&line(4.0, 12.0, 0.002));
-        assert!(off.reason().unwrap().contains("misses the start"));
+        let reason = off.reason().unwrap();
+        assert!(reason.contains("misses the start"), "{reason}");
+        assert!(reason.contains("the limit is 0.001 m"), "{reason}");
         let short = of(&line(4.0, 10.0, 0.0));
         assert!(short.reason().unwrap().contains("misses the goal"));
         let far = of(&line(4.0, 1e6, 0.0));

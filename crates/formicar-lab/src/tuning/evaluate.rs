@@ -5,7 +5,7 @@ use super::runs::{Asked, TunedRun, run_all};
 use super::space::TuningSpace;
 use super::state::{Subject, TuningState};
 use crate::statistics::quantile;
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use formicar::numeric::Seed;
 use formicar::planner::PlannerConfig;
 use formicar::tuning::{BeeColony, BeeColonyConfig};
@@ -38,12 +38,14 @@ impl Tuning {
     /// [`Tuning::cycle`].
     ///
     /// # Errors
-    /// Parameters of the colony out of range, or a default outside its range.
+    /// Parameters of the colony out of range, a default outside its range, or a scenario that it
+    /// cannot even be asked.
     pub fn begin(&self) -> Result<TuningState> {
         let colony = BeeColony::new(self.space.space.clone(), self.bees.clone(), self.seed)?;
         let own = self.space.own_values()?;
         let hint = "the default must be in its range; hint: --range around it, or another --set";
         let colony = colony.with_known(&own).context(hint)?;
+        self.check_scenarios()?;
         let subject = Subject {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             space: self.space.clone(),
@@ -54,6 +56,7 @@ impl Tuning {
         Ok(TuningState {
             subject,
             references: Vec::new(),
+            solved: Vec::new(),
             n_invalid: 0,
             colony,
         })
@@ -66,14 +69,35 @@ impl Tuning {
     pub fn cycle(&self, state: &mut TuningState) -> Result<()> {
         if state.references.is_empty() {
             state.references = self.references()?;
+            // The default is the first candidate: what its runs solve is told below.
+            state.solved = vec![false; self.scenarios.len()];
         }
         let (references, n_invalid) = (&state.references, &mut state.n_invalid);
+        let solved = &mut state.solved;
         let mut evaluate = |all: &[Vec<f64>]| {
-            let scores = self.scores(all, references);
+            let (scores, found) = self.scores(all, references);
+            let pairs = solved.iter_mut().zip(found);
+            pairs.for_each(|(solved, found)| *solved |= found);
             *n_invalid += scores.iter().filter(|score| score.is_infinite()).count() as u64;
             scores
         };
         state.colony.cycle(&mut evaluate)?;
+        Ok(())
+    }
+
+    /// Refuses scenarios that the default cannot even be asked: all their runs would fail alike.
+    fn check_scenarios(&self) -> Result<()> {
+        let default = self.default_config()?;
+        for asked in self.scenarios.iter().chain(&self.held_back) {
+            if let Some(reason) = asked.refusal(&default) {
+                bail!(
+                    "{}: {} cannot be asked this: {reason}; hint: leave the scenario out, or take \
+                     another --planner",
+                    asked.ground.map,
+                    default.planner.name()
+                );
+            }
+        }
         Ok(())
     }
 
@@ -98,17 +122,23 @@ impl Tuning {
         config.context("the default is no valid configuration")
     }
 
-    /// How dear each candidate is; infinite where its values do not go together.
-    fn scores(&self, all: &[Vec<f64>], references: &[Reference]) -> Vec<f64> {
+    /// How dear each candidate is, infinite where its values do not go together; and per scenario
+    /// whether any of them found a path.
+    fn scores(&self, all: &[Vec<f64>], references: &[Reference]) -> (Vec<f64>, Vec<bool>) {
         let configs: Vec<_> = all.iter().map(|values| self.space.config(values)).collect();
         let valid: Vec<_> = configs.iter().flatten().cloned().map(|c| ("", c)).collect();
         let runs = run_all(&valid, &self.scenarios, &(0..self.n_seeds), self.n_jobs);
+        let is_solved = |i: usize| {
+            let mut here = runs.iter().flat_map(|runs| &runs[i]);
+            here.any(|run| run.cost_m.is_some())
+        };
+        let solved = (0..self.scenarios.len()).map(is_solved).collect();
         let mut scores = runs.iter().map(|runs| self.score(runs, references));
         let score = |config: &Option<PlannerConfig>| {
             let found = config.as_ref().and_then(|_| scores.next());
             found.unwrap_or(f64::INFINITY)
         };
-        configs.iter().map(score).collect()
+        (configs.iter().map(score).collect(), solved)
     }
 
     /// The geometric mean over runs, of all scenarios alike.

@@ -7,6 +7,7 @@ use formicar::numeric::Seed;
 use formicar::objective::{DriveCost, DriveMeter};
 use formicar::planner::{Outcome, Plan, Planner, PlannerConfig};
 use formicar::progress::{Event, Observer};
+use formicar::scenario::Request;
 use formicar::vehicle::Motion;
 use serde::Serialize;
 use std::ops::Range;
@@ -66,6 +67,21 @@ impl Asked {
     /// The hash of the map, for provenance.
     pub(super) fn map_hash(&self) -> u128 {
         self.obstacles.hash()
+    }
+
+    /// Why a configuration cannot even be asked this; none where it can.
+    pub(super) fn refusal(&self, config: &PlannerConfig) -> Option<String> {
+        let request = Request {
+            budget_steps: Some(0),
+            ..self.ground.request.clone()
+        };
+        let vehicle = self.ground.vehicle.clone();
+        let asked = Planner::on(self.obstacles.clone(), vehicle, config.clone());
+        let asked = asked.and_then(|mut planner| {
+            let mut observer = FirstPath::default();
+            planner.plan(&request, Seed(0), &mut observer)
+        });
+        asked.err().map(|error| error.to_string())
     }
 
     /// Runs a configuration with each seed.

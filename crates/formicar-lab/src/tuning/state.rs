@@ -15,6 +15,9 @@ pub struct TuningState {
     pub(super) subject: Subject,
     /// Per scenario what its runs are held against.
     pub(super) references: Vec<Reference>,
+    /// Per scenario whether any run has ever found a path.
+    #[serde(default)]
+    pub(super) solved: Vec<bool>,
     /// Candidates whose values do not go together.
     pub(super) n_invalid: u64,
     /// The search.

@@ -329,6 +329,46 @@ fn jobs_and_interruptions_change_nothing() {
 }
 
 #[test]
+fn scenarios_that_cannot_be_asked_are_refused() {
+    let open = BuiltinMap::by_name("wang-open").unwrap();
+    let name = format!("wang-open-{}", open.requests[0].id);
+    let of_point = || asked("wang-open", open.requests[0].id);
+    for tuning in [
+        Tuning {
+            scenarios: vec![of_point()],
+            ..tuning(1)
+        },
+        Tuning {
+            held_back: vec![of_point()],
+            ..tuning(1)
+        },
+    ] {
+        let error = tuning.begin().unwrap_err().to_string();
+        assert!(
+            error.contains(&format!("{name}: formicar cannot be asked this: ")),
+            "{error}"
+        );
+    }
+}
+
+#[test]
+fn scenarios_that_were_never_solved_are_told() {
+    let mut hopeless = asked("narrow-junction", "turn-around");
+    hopeless.ground.request.budget_steps = Some(1);
+    let tuning = Tuning {
+        scenarios: vec![asked("narrow-aisle", "next-aisle"), hopeless],
+        held_back: Vec::new(),
+        ..tuning(1)
+    };
+    let mut state = tuning.begin().unwrap();
+    tuning.cycle(&mut state).unwrap();
+    assert_eq!(state.solved, [true, false]);
+    let report = crate::report::markdown(&tuning.verdict(&state).unwrap().report);
+    let told = "ever found a path on narrow-junction-turn-around:";
+    assert!(report.contains(told), "{report}");
+}
+
+#[test]
 fn the_state_of_another_tuning_is_refused() {
     let one = tuning(1);
     let begun = one.begin().unwrap();

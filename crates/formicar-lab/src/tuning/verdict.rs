@@ -156,16 +156,15 @@ impl Tuning {
 
     fn intro(&self) -> String {
         format!(
-            "{} parameters were tuned by an artificial bee colony on {} scenarios with {} seeds \
-             each, and the best that it found was compared with the default on {} scenarios that \
-             were held back, with {} other seeds each. Costs are those of the usual weights \
-             (`DriveCost::default`), metres; steps are those to the first certified path. Nothing \
-             here depends on time.",
-            self.space.space.dimensions().len(),
-            self.scenarios.len(),
-            self.n_seeds,
-            self.held_back.len(),
-            self.n_check_seeds
+            "An artificial bee colony tuned {} on {} with {} each, and the best that it found was \
+             compared with the default on {} held back, with {} each. Costs are those of the usual \
+             weights (`DriveCost::default`), metres; steps are those to the first certified path. \
+             Nothing here depends on time.",
+            counted(self.space.space.dimensions().len(), "parameter"),
+            counted(self.scenarios.len(), "scenario"),
+            counted(self.n_seeds as usize, "seed"),
+            counted(self.held_back.len(), "scenario"),
+            counted(self.n_check_seeds as usize, "other seed")
         )
     }
 
@@ -189,18 +188,40 @@ impl Tuning {
         let least = colony.best().map_or(f64::NAN, |best| best.cost);
         let n_scouts = colony.history().iter().filter(|c| c.scouted).count();
         format!(
-            "{} evaluations in {} cycles of {} food sources; {} sources were abandoned, {} \
-             candidates were no valid configuration. The default counts 1 where it always finds a \
+            "{} in {} of {} food sources. Sources abandoned: {}; candidates that were no valid \
+             configuration: {}. The default counts 1 where it always finds a \
              path of the same cost; the best candidate counts {least:.4} on the scenarios tuned \
-             on. A run without a path counts {}.",
-            colony.n_evaluations(),
-            colony.history().len(),
+             on. A run without a path counts {}.{}",
+            counted(colony.n_evaluations() as usize, "evaluation"),
+            counted(colony.history().len(), "cycle"),
             self.bees.n_sources,
             n_scouts,
             state.n_invalid,
-            Objective::FAILURE
+            Objective::FAILURE,
+            self.never_solved(state)
         )
     }
+
+    /// A sentence on the scenarios tuned on of which nothing can be learned.
+    fn never_solved(&self, state: &TuningState) -> String {
+        let pairs = self.scenarios.iter().zip(&state.solved);
+        let never = pairs.filter(|(_, solved)| !**solved);
+        let names: Vec<&str> = never.map(|(asked, _)| asked.ground.map.as_str()).collect();
+        match names[..] {
+            [] => String::new(),
+            _ => format!(
+                " Neither the default nor any candidate ever found a path on {}: nothing was tuned \
+                 there.",
+                names.join(", ")
+            ),
+        }
+    }
+}
+
+/// A number with what it counts.
+fn counted(n: usize, noun: &str) -> String {
+    let end = if n == 1 { "" } else { "s" };
+    format!("{n} {noun}{end}")
 }
 
 /// A value as it stands in a table: numbers with four significant digits.

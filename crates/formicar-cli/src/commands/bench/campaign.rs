@@ -4,6 +4,7 @@ use super::runs::{Runs, planners, vehicle};
 use super::suite::{self, Source};
 use crate::{files, settings};
 use anyhow::{Result, anyhow};
+use formicar::planner::PlannerName;
 use formicar_lab::campaign::{
     Contender, Document, Limits, Place, PlannerEntry, RivalCommand, ScenariosEntry, Task, Text,
     VehicleChoice,
@@ -136,10 +137,10 @@ fn contender(entry: &PlannerEntry, text: &Text, folder: &Path) -> Result<Contend
         });
     }
     let base = config(entry.config.as_ref(), text, folder)?;
-    let mut config = checked(base, &[], entry, text)?;
+    let mut config = checked(&base, &[], entry, text)?;
     for set in &entry.set {
         let merged = settings::merge((config, ""), &[set.get_ref().clone()], None);
-        config = merged.map_err(|e| text.mistake(Some(set.span()), format!("{e:#}")))?;
+        config = merged.map_err(|e| text.mistake(Some(set.span()), plain(&format!("{e:#}"))))?;
     }
     Ok(Contender {
         name: entry.name.get_ref().clone(),
@@ -169,14 +170,18 @@ fn config(config: Option<&Spanned<Value>>, text: &Text, folder: &Path) -> Result
 }
 
 /// The parameters with the planner's name; what is wrong with one is told at its line.
-fn checked(base: Table, sets: &[String], entry: &PlannerEntry, text: &Text) -> Result<Table> {
-    let keys = settings::keys_of(&base, "");
-    let merged = settings::merge((base, "config"), sets, Some(entry.planner));
+fn checked(base: &Table, sets: &[String], entry: &PlannerEntry, text: &Text) -> Result<Table> {
+    let keys = settings::keys_of(base, "");
+    let merged = settings::merge((base.clone(), "config"), sets, Some(entry.planner));
     merged.map_err(|error| {
         let what = format!("{error:#}");
         let Some(config) = &entry.config else {
             return anyhow!("{what}");
         };
+        if let Some((key, what)) = mistyped(base, entry.planner) {
+            let span = place(&key, config, text);
+            return text.mistake(Some(span), format!("{key}: {what}"));
+        }
         let last = |key: &String| key.rsplit('.').next().unwrap_or_default().to_owned();
         let named = keys.iter().find(|key| what.contains(&last(key)));
         let span = named.map_or(config.span(), |key| place(key, config, text));
@@ -184,10 +189,62 @@ fn checked(base: Table, sets: &[String], entry: &PlannerEntry, text: &Text) -> R
     })
 }
 
-/// Where a dotted key stands, from the beginning of its table on; the table where it is not found.
+/// The key whose value is of a wrong type, and what is wrong with it.
+fn mistyped(base: &Table, planner: PlannerName) -> Option<(String, String)> {
+    let mut table = base.clone();
+    table.insert("planner".to_owned(), planner.name().into());
+    let error = settings::typed(&table).err()?.to_string();
+    // The error names the section alone: it is that of the key without which there is another one.
+    let is_it = |key: &String| {
+        let mut rest = table.clone();
+        remove(&mut rest, key);
+        settings::typed(&rest).map_or_else(|other| other.to_string() != error, |_| true)
+    };
+    let key = settings::keys_of(base, "").into_iter().find(is_it)?;
+    let section = key.split('.').next().unwrap_or_default();
+    let what = error.strip_prefix(&format!("{section}: "));
+    Some((key, plain(what.unwrap_or(&error))))
+}
+
+fn remove(table: &mut Table, key: &str) {
+    match key.split_once('.') {
+        None => drop(table.remove(key)),
+        Some((section, rest)) => {
+            if let Some(inner) = table.get_mut(section).and_then(Value::as_table_mut) {
+                remove(inner, rest);
+            }
+        }
+    }
+}
+
+/// What is expected in words of TOML rather than of Rust.
+fn plain(what: &str) -> String {
+    let words = what.split_once("expected struct ");
+    let what = match words {
+        Some((before, name)) => {
+            let rest = name.trim_start_matches(|c: char| c.is_alphanumeric() || c == '_');
+            format!("{before}expected a table{rest}")
+        }
+        None => what.to_owned(),
+    };
+    // JSON has no word for numbers that are not finite.
+    what.replace("invalid type: null", "nan or inf")
+        .replace("expected f64", "expected a finite number")
+        .replace("expected u32", "expected a whole number from 0 on")
+        .replace("expected u64", "expected a whole number from 0 on")
+        .replace("expected usize", "expected a whole number from 0 on")
+}
+
+/// Where a dotted key stands, from the beginning of its table on; the table where it is not found,
+/// and the name of the file where that holds it.
 fn place(key: &str, config: &Spanned<Value>, text: &Text) -> Range<usize> {
-    let last = key.rsplit('.').next().unwrap_or_default();
+    if config.get_ref().is_str() {
+        return config.span();
+    }
+    let (section, last) = key.rsplit_once('.').unwrap_or(("", key));
     let begin = config.span().start;
-    let found = text.text.get(begin..).and_then(|rest| rest.find(last));
-    found.map_or(config.span(), |at| begin + at..begin + at + last.len())
+    let rest = text.text.get(begin..).unwrap_or_default();
+    let table = rest.find(&format!("config.{section}]")).unwrap_or_default();
+    let found = rest[table..].find(last).map(|at| begin + table + at);
+    found.map_or(config.span(), |at| at..at + last.len())
 }

@@ -3,9 +3,10 @@
 use super::runs::Runs;
 use super::{execute, machine, summary};
 use crate::failure::{Ending, Failure};
+use crate::summary::counted;
 use anyhow::{Context, Result};
 use formicar::map::format::write_atomically;
-use formicar_lab::campaign::{Campaign, Job, Origin, PlannedRun, Record, Store};
+use formicar_lab::campaign::{Campaign, Job, Origin, PlannedRun, Record, Store, csv_beside};
 use std::io::Write;
 use std::path::Path;
 
@@ -16,13 +17,13 @@ pub(super) fn run(
     n_at_once: u32,
     out: &mut impl Write,
 ) -> Result<Ending, Failure> {
+    let csv = csv_beside(path)?;
     let campaign = runs.campaign()?;
     let mut store = Store::open(path, &campaign, env!("CARGO_PKG_VERSION"))?;
     let missing = store.missing()?;
     fill(&mut store, &campaign, &missing, n_at_once)?;
     let stored = store.stored()?;
     store.finish()?;
-    let csv = path.with_extension("csv");
     write_atomically(&csv, stored.csv()?.as_bytes())
         .with_context(|| format!("{} cannot be written", csv.display()))?;
     let rows: Vec<_> = stored
@@ -35,8 +36,8 @@ pub(super) fn run(
         0 => String::new(),
         n => format!(", {n} kept from before"),
     };
-    let (n_runs, path, csv) = (missing.len(), path.display(), csv.display());
-    writeln!(out, "{n_runs} runs{kept}: see {path} and {csv}")?;
+    let (n_runs, path, csv) = (counted(missing.len(), "run"), path.display(), csv.display());
+    writeln!(out, "{n_runs}{kept}: see {path} and {csv}")?;
     Ok(Ending::Done)
 }
 

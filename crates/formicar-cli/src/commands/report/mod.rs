@@ -4,6 +4,7 @@ mod pictures;
 
 use super::results;
 use crate::failure::{Ending, Failure};
+use crate::summary::counted;
 use anyhow::Result;
 use clap::{Args, ValueHint};
 use formicar_lab::campaign::{Record, Stored, ompl_logs, report, to_csv};
@@ -58,7 +59,8 @@ pub(crate) fn run(args: &ReportArgs, out: &mut impl Write) -> Result<Ending, Fai
     results::write_all(&args.out, &files)?;
     write!(out, "{}", markdown(&report))?;
     let page = args.out.join("index.html");
-    writeln!(out, "\n{} runs: see {}", records.len(), page.display())?;
+    let n_runs = counted(records.len(), "run");
+    writeln!(out, "\n{n_runs}: see {}", page.display())?;
     Ok(Ending::Done)
 }
 

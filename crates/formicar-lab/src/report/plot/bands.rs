@@ -115,7 +115,12 @@ impl Bands {
             return 0.0;
         };
         let (mut x, mut y) = (LEFT_PX, 14.0);
-        for (i, course) in panel.courses.iter().enumerate() {
+        let is_drawn = |i: usize| {
+            let courses = self.panels.iter().filter_map(|panel| panel.courses.get(i));
+            { courses }.any(|course| !course.points.is_empty())
+        };
+        let drawn = panel.courses.iter().enumerate();
+        for (i, course) in drawn.filter(|(i, _)| is_drawn(*i)) {
             let width = 40.0 + width_px(&course.name) + 18.0;
             if x + width > WIDTH_PX && x > LEFT_PX {
                 (x, y) = (LEFT_PX, y + 1.6 * TEXT_PX);

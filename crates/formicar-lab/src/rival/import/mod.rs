@@ -38,11 +38,21 @@ impl Format {
         let text = text.trim_start();
         if text.starts_with(['{', '[']) {
             Self::NavPath
-        } else if text.starts_with("OMPL version") || text.starts_with("Experiment ") {
+        } else if is_log(text.lines().next().unwrap_or_default()) {
             Self::OmplLog
         } else {
             Self::Poses
         }
+    }
+}
+
+/// Whether a benchmark log begins so: `PROGRAM version X`, of whatever program, or without it.
+fn is_log(first: &str) -> bool {
+    let words: Vec<&str> = first.split_whitespace().collect();
+    match words[..] {
+        ["Experiment", _, ..] => true,
+        [_, .., "version", _] => !first.contains(','),
+        _ => false,
     }
 }
 
@@ -73,7 +83,10 @@ mod tests {
     fn files_are_told_apart() {
         assert_eq!(Format::of("\n {\"poses\": []}"), Format::NavPath);
         assert_eq!(Format::of("OMPL version 2.0.1\n"), Format::OmplLog);
+        assert_eq!(Format::of("formicar version 0.1.0\n"), Format::OmplLog);
+        assert_eq!(Format::of("Experiment door\n"), Format::OmplLog);
         assert_eq!(Format::of("x,y\n1,2\n"), Format::Poses);
+        assert_eq!(Format::of("x y version\n1 2 3\n"), Format::Poses);
         let runs = read("1,2,0.5\n2,2,0.5\n").unwrap();
         assert_eq!(runs[0].samples.as_ref().unwrap().points.len(), 2);
         assert!(read("1,2\n3\n").unwrap_err().to_string().contains("line 2"));

@@ -173,6 +173,7 @@ fn short(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::{OmplLog, OmplPlanner, OmplRun, Property, PropertyKind};
 
     const LOG: &str = "OMPL version 2.0.1\nExperiment door\n0 experiment properties\nRunning on a\n\
         <<<|\n3 planners\n|>>>\n7 is the random seed\n2 runs per planner\n1 enum type\n\
@@ -197,6 +198,34 @@ mod tests {
         assert_eq!(runs[2].planner.as_deref(), Some("geometric_RRTstar"));
         assert!(!runs[2].is_found);
         assert_eq!(runs[2].measured, [("query_s", 0.75)]);
+    }
+
+    #[test]
+    fn logs_of_ours_are_read() {
+        let kinds = [
+            ("solved", PropertyKind::Boolean),
+            ("time", PropertyKind::Real),
+            ("solution length", PropertyKind::Real),
+        ];
+        let run = |solved, length_m| OmplRun {
+            values: vec![Some(solved), Some(0.5), length_m],
+            progress: vec![[0.25, 7.0]],
+        };
+        let log = OmplLog {
+            version: "0.1.0".to_owned(),
+            properties: kinds.map(|(name, kind)| Property::new(name, kind)).into(),
+            planners: vec![OmplPlanner {
+                name: "hybrid-astar".to_owned(),
+                runs: vec![run(1.0, Some(6.0)), run(0.0, None)],
+                ..OmplPlanner::default()
+            }],
+            ..OmplLog::default()
+        };
+        let runs = super::super::read(&log.to_text()).unwrap();
+        assert_eq!(runs.len(), 2);
+        assert_eq!(runs[0].planner.as_deref(), Some("hybrid-astar"));
+        assert_eq!(runs[0].measured, [("query_s", 0.5), ("length_m", 6.0)]);
+        assert!(runs[0].is_found && !runs[1].is_found);
     }
 
     #[test]
