@@ -2,8 +2,8 @@
 
 use crate::ground::Ground;
 use crate::picture::PNG_WIDTH_PX;
-use crate::summary::counted;
 use anyhow::{Result, bail};
+use formicar::numeric::counted;
 use formicar::planner::{Answer, Outcome, PlannerName, Stages};
 use formicar::progress::AntFrame;
 use formicar::render::{ColonyPicture, colony_film, colony_picture, to_gif};

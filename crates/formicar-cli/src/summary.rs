@@ -1,5 +1,6 @@
 //! What a person reads after a query: two calm lines.
 
+use formicar::numeric::counted;
 use formicar::planner::Answer;
 use formicar::vehicle::Vehicle;
 use std::io::{self, Write};
@@ -38,7 +39,7 @@ pub(crate) fn write(
         "certified  {}, {}     {first}improved {}, {} at {}",
         counted(path.poses.len(), "pose"),
         counted(path.segments.len(), "segment"),
-        counted(n_improvements as usize, "time"),
+        counted(n_improvements, "time"),
         match answer.cut_by {
             Some("timed_out") => "stopped by the deadline",
             Some(_) => "stopped by the budget",
@@ -96,12 +97,6 @@ pub(crate) fn clearance(metres: f64) -> String {
     }
 }
 
-/// A number with its noun.
-pub(crate) fn counted(n: usize, noun: &str) -> String {
-    let plural = if n == 1 { "" } else { "s" };
-    format!("{n} {noun}{plural}")
-}
-
 /// A time in the unit that suits it.
 pub(crate) fn duration(seconds: f64) -> String {
     if seconds < 1.0 {
@@ -117,8 +112,6 @@ mod tests {
 
     #[test]
     fn numbers_agree_with_their_nouns() {
-        assert_eq!(counted(1, "cusp"), "1 cusp");
-        assert_eq!(counted(0, "cusp"), "0 cusps");
         assert_eq!(duration(0.0041), "4.1 ms");
         assert_eq!(duration(2.5), "2.50 s");
     }

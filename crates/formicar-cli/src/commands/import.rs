@@ -4,13 +4,13 @@
 use super::bench::measure;
 use crate::args::GroundArgs;
 use crate::failure::{Ending, Failure};
-use crate::summary::counted;
 use crate::{files, ground, values};
 use anyhow::{Context, Result, anyhow, bail};
 use clap::{Args, ValueHint};
 use formicar::collision::ObstacleMap;
 use formicar::map::builtin::BuiltinMap;
 use formicar::map::format::write_atomically;
+use formicar::numeric::counted;
 use formicar::scenario::{GoalTolerance, MotionMode, Request};
 use formicar_lab::campaign::{OWN_VEHICLE, Record, read_csv, to_csv};
 use formicar_lab::rival::import::{Imported, read};

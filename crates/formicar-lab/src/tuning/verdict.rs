@@ -5,11 +5,11 @@ use super::evaluate::Tuning;
 use super::objective::Objective;
 use super::runs::{Asked, TunedRun, run_all};
 use super::state::TuningState;
-use crate::report::Fact;
-use crate::report::{Block, Field, Figure, Report, Section, Table};
+use crate::report::{Block, Fact, Field, Figure, Report, Section, Table};
 use crate::reproduction::{csv, facts_of, seeds};
 use crate::statistics::{holm, quantile, wilcoxon};
 use anyhow::{Context, Result};
+use formicar::numeric::counted;
 use formicar::planner::PlannerConfig;
 use serde_json::Value;
 
@@ -162,9 +162,9 @@ impl Tuning {
              Nothing here depends on time.",
             counted(self.space.space.dimensions().len(), "parameter"),
             counted(self.scenarios.len(), "scenario"),
-            counted(self.n_seeds as usize, "seed"),
+            counted(self.n_seeds, "seed"),
             counted(self.held_back.len(), "scenario"),
-            counted(self.n_check_seeds as usize, "other seed")
+            counted(self.n_check_seeds, "other seed")
         )
     }
 
@@ -192,7 +192,7 @@ impl Tuning {
              configuration: {}. The default counts 1 where it always finds a \
              path of the same cost; the best candidate counts {least:.4} on the scenarios tuned \
              on. A run without a path counts {}.{}",
-            counted(colony.n_evaluations() as usize, "evaluation"),
+            counted(colony.n_evaluations(), "evaluation"),
             counted(colony.history().len(), "cycle"),
             self.bees.n_sources,
             n_scouts,
@@ -216,12 +216,6 @@ impl Tuning {
             ),
         }
     }
-}
-
-/// A number with what it counts.
-fn counted(n: usize, noun: &str) -> String {
-    let end = if n == 1 { "" } else { "s" };
-    format!("{n} {noun}{end}")
 }
 
 /// A value as it stands in a table: numbers with four significant digits.

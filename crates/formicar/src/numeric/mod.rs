@@ -1,4 +1,4 @@
-//! Random streams and integration: the numbers that everything else is made of.
+//! Random streams, integration, numbers in words: what everything else is made of.
 
 mod fractional;
 mod gamma;
@@ -6,6 +6,7 @@ mod golden_section;
 mod random;
 mod range;
 mod runge_kutta;
+mod words;
 
 pub use fractional::{FractionalDerivative, FractionalStream, grunwald_letnikov_weights};
 pub use gamma::ln_gamma;
@@ -13,3 +14,4 @@ pub use golden_section::golden_section;
 pub use random::{RandomStream, Seed};
 pub use range::{OutOfRange, check_range};
 pub use runge_kutta::rk4_step;
+pub use words::counted;

@@ -1,5 +1,6 @@
 //! Goals that no vehicle of this kind can reach: told before any search.
 
+use super::explain::passable;
 use super::run::Ended;
 use super::via::leg_name;
 use super::{Disconnected, Explanation, Planner, Stages};
@@ -112,12 +113,13 @@ impl Planner {
             None => i == index,
         };
         let passage = widest_way_out(self.obstacles.distance(), ends[from], is_there);
-        let (sentence, gap) = self.explain_passage(passage.as_ref());
+        let gap = passage.as_ref().map(|passage| self.gap(passage));
         let fallback = || {
             "start and goal lie in different parts of the ground where the rear axle can be"
                 .to_owned()
         };
-        let mut reason = sentence.unwrap_or_else(fallback);
+        let blocked = passable(gap.as_ref()).err();
+        let mut reason = blocked.unwrap_or_else(fallback);
         let has_legs = !request.via.is_empty();
         if has_legs {
             reason = format!("{}: {reason}", leg_name(request, leg));

@@ -1,6 +1,7 @@
 //! The widest way through: where the narrowest gap between two places is, and how wide.
 
 use crate::map::{Cell, DistanceField, STEPS};
+use std::f64::consts::FRAC_1_SQRT_2;
 
 /// The narrowest place on the widest way between two cells.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,6 +13,18 @@ pub struct Passage {
     /// Distance between the centers of that cell and the nearest obstacle cell, in cells; at the
     /// truncation of the distance field, at least that.
     pub distance_cells: f64,
+}
+
+impl Passage {
+    /// No wider disc passes on any way between the same two cells, in cells; none where the field
+    /// it was found in does not reach so far.
+    ///
+    /// The middle of the cell in which the disc's own lies is at most half a diagonal away from it,
+    /// and that of an obstacle cell lies half a side behind the obstacle's side.
+    pub fn widest_disc_cells(&self, distance: &DistanceField) -> Option<f64> {
+        let is_known = self.distance_cells < f64::from(distance.truncation_cells());
+        is_known.then_some(2.0 * (self.distance_cells + FRAC_1_SQRT_2 - 0.5))
+    }
 }
 
 /// The way between two cells whose least distance from obstacles is largest; none where obstacles

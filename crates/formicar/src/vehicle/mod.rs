@@ -1,5 +1,6 @@
 //! Car-like vehicles: measures, footprint, limits and motion.
 
+mod error;
 mod kinematics;
 mod parameters;
 mod presets;
@@ -8,10 +9,11 @@ mod shape;
 mod suspension;
 mod virtual_wheel;
 
+pub use error::VehicleError;
 pub use kinematics::{AckermannAxles, BicycleInput, BicycleState, Wheels};
 pub use parameters::{FootprintSpec, VehicleParameters};
 pub use presets::PRESET_NAMES;
 pub use primitives::{Alignment, Gears, Primitive, PrimitiveSet};
-pub use shape::{Motion, Vehicle, VehicleError};
+pub use shape::{Motion, Vehicle};
 pub use suspension::{SteeringDemand, SuspendedSteering, SuspensionParameters};
 pub use virtual_wheel::BodyMotion;

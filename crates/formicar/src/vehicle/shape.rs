@@ -1,68 +1,9 @@
 //! A checked vehicle: footprint, steering limit, and what both imply.
 
-use super::VehicleParameters;
-use crate::geometry::{ConvexPolygon, Point2, PolygonError};
+use super::{VehicleError, VehicleParameters};
+use crate::geometry::{ConvexPolygon, Point2};
 use std::f64::consts::FRAC_PI_2;
-use thiserror::Error;
 use xxhash_rust::xxh3::xxh3_128;
-
-/// What is wrong with a vehicle.
-#[derive(Clone, Debug, Error, PartialEq)]
-#[non_exhaustive]
-pub enum VehicleError {
-    /// A measure outside its range.
-    #[error("vehicle {name} = {value}; it must be {range}")]
-    OutOfRange {
-        /// The measure.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-        /// What is allowed.
-        range: &'static str,
-    },
-    /// A measure is missing.
-    #[error("vehicle {name} is missing; hint: {hint}")]
-    Missing {
-        /// The measure.
-        name: &'static str,
-        /// What to give.
-        hint: &'static str,
-    },
-    /// Two statements of the steering limit.
-    #[error(
-        "min_turning_radius_m = {radius_m} and max_steer ({steer_rad} rad, so {implied_m} m) disagree by more than 1 %; hint: give one of them"
-    )]
-    LimitsDisagree {
-        /// Radius given, metres.
-        radius_m: f64,
-        /// Steering limit given, radians.
-        steer_rad: f64,
-        /// Radius that the steering limit implies, metres.
-        implied_m: f64,
-    },
-    /// A vehicle without a turning radius.
-    #[error(
-        "the vehicle turns on the spot ({name} = {value}); formicar plans for steered axles, whose turning radius is above 0"
-    )]
-    TurnsOnTheSpot {
-        /// The measure that says so.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// The footprint is no convex polygon.
-    #[error("vehicle footprint: {0}")]
-    Footprint(#[from] PolygonError),
-    /// The footprint string cannot be read.
-    #[error("vehicle footprint: {0}")]
-    FootprintText(String),
-    /// A preset name that nobody knows.
-    #[error("no vehicle preset is named {name:?}; there are {}", super::PRESET_NAMES.join(", "))]
-    UnknownPreset {
-        /// The name asked for.
-        name: String,
-    },
-}
 
 /// How a vehicle may move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,9 +3,9 @@
 use super::runs::Runs;
 use super::{execute, machine, summary};
 use crate::failure::{Ending, Failure};
-use crate::summary::counted;
 use anyhow::{Context, Result};
 use formicar::map::format::write_atomically;
+use formicar::numeric::counted;
 use formicar_lab::campaign::{Campaign, Job, Origin, PlannedRun, Record, Store, csv_beside};
 use std::io::Write;
 use std::path::Path;

@@ -11,7 +11,6 @@ use formicar::search::widest_passage;
 use formicar::validation::{CURVATURE_TOLERANCE, judge_path};
 use formicar::vehicle::Vehicle;
 use serde::Serialize;
-use std::f64::consts::FRAC_1_SQRT_2;
 use std::io::{self, Write};
 
 /// What `map clearance --json` prints.
@@ -101,16 +100,11 @@ fn measure(obstacles: &ObstacleMap, [start, goal]: [Point2; 2], ends: [Cell; 2])
         schema: SCHEMA,
         connected: true,
         width_m: Some(2.0 * report.min_clearance_m),
-        limit_m: limit_m(&field, passage.distance_cells, frame.resolution_m()),
+        limit_m: passage
+            .widest_disc_cells(&field)
+            .map(|cells| cells * frame.resolution_m()),
         narrowest: Some([narrowest.x, narrowest.y]),
     }
-}
-
-/// No wider disc passes on any way: the center of the cell in which its own center lies is at most
-/// half a diagonal away, and that of an obstacle cell lies half a side behind the obstacle's side.
-fn limit_m(field: &DistanceField, distance_cells: f64, resolution_m: f64) -> Option<f64> {
-    let is_known = distance_cells < f64::from(field.truncation_cells());
-    is_known.then_some(2.0 * (distance_cells + FRAC_1_SQRT_2 - 0.5) * resolution_m)
 }
 
 /// The cells with one more, lethal, on every side.

@@ -4,9 +4,9 @@ mod pictures;
 
 use super::results;
 use crate::failure::{Ending, Failure};
-use crate::summary::counted;
 use anyhow::Result;
 use clap::{Args, ValueHint};
+use formicar::numeric::counted;
 use formicar_lab::campaign::{Record, Stored, ompl_logs, report, to_csv};
 use formicar_lab::report::{Fact, latex, markdown, numbers_csv};
 use std::collections::BTreeSet;

@@ -1,7 +1,8 @@
 //! What a person reads about a drive.
 
 use super::Driven;
-use crate::summary::{clearance, counted};
+use crate::summary::clearance;
+use formicar::numeric::counted;
 use formicar::tracking::{Controller, TrackingStatus};
 use formicar::validation::ViolationKind;
 use std::io::{self, Write};
