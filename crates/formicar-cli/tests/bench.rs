@@ -156,7 +156,7 @@ fn kept_answers_pass_the_judge() {
     assert_eq!(fs::read_dir(room.path("out/paths")).unwrap().count(), 2);
     fs::remove_file(room.path(path)).unwrap();
     let run = room.run(&args);
-    assert!(run.stdout.contains("1 runs, 1 kept"), "{}", run.stdout);
+    assert!(run.stdout.contains("1 run, 1 kept"), "{}", run.stdout);
     assert_eq!(Table::of(&room.read("out/results.csv")).rows.len(), 2);
     assert!(room.path(path).exists());
 }

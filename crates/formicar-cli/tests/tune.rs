@@ -49,7 +49,9 @@ fn what_was_tuned_is_a_configuration_for_plan() {
         assert!(run.stdout.contains(part), "no {part:?} in {}", run.stdout);
     }
     let config = room.read("out/tuned.toml");
-    assert!(config.starts_with("planner = \"formicar\"\n"), "{config}");
+    let (mark, values) = config.split_once('\n').unwrap();
+    assert!(mark.starts_with("# Found by formicar tune"), "{config}");
+    assert!(values.starts_with("planner = \"formicar\"\n"), "{config}");
     let n_values = config.lines().filter(|line| line.contains(" = ")).count();
     assert_eq!(n_values, 3, "{config}");
     let plan = [

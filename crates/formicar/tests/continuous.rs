@@ -6,6 +6,7 @@ use formicar::geometry::{Pose2, angle_difference};
 use formicar::map::generate::{ScatterParameters, free_pose_pairs, scattered_obstacles};
 use formicar::map::{GridFrame, OccupancyGrid};
 use formicar::numeric::Seed;
+use formicar::objective::DriveCost;
 use formicar::path::{CurvePath, Direction};
 use formicar::planner::{Outcome, PathDocument, Plan, Planner, PlannerConfig, PlannerName};
 use formicar::progress::Status;
@@ -158,6 +159,7 @@ fn the_ends_of_a_path_stay_where_they_are() {
             obstacles: &obstacles,
             vehicle: &Vehicle::lei2020(),
             max_rate_per_m2,
+            cost: &DriveCost::default(),
         };
         let smooth = continuity.apply(&path).expect("there is room");
         assert_eq!(smooth.start(), path.start());
@@ -211,6 +213,55 @@ fn the_vehicles_own_rate_bounds_its_paths_and_their_time() {
 }
 
 #[test]
+fn where_there_is_room_walls_are_not_shaved() {
+    let parameters = ScatterParameters {
+        n_cols: 120,
+        n_rows: 90,
+        resolution_m: 0.2,
+        density: 0.03,
+        max_obstacle_cells: 6,
+    };
+    let vehicle = Vehicle::warehouse_amr();
+    let blind = DriveCost {
+        clearance_weight: 0.0,
+        ..DriveCost::default()
+    };
+    let (mut n_better, mut n_worse) = (0, 0);
+    for seed in 0..8 {
+        let map = scattered_obstacles(&parameters, Seed(seed)).expect("valid parameters");
+        let obstacles = ObstacleMap::new(&map);
+        for (start, goal) in free_pose_pairs(&map, &vehicle, 4, Seed(seed)).unwrap_or_default() {
+            let Outcome::Found(plan) = plan(&map, &vehicle, &Request::new(start, goal)) else {
+                continue;
+            };
+            let clearance_m = |cost: &DriveCost| {
+                let continuity = Continuity {
+                    obstacles: &obstacles,
+                    vehicle: &vehicle,
+                    max_rate_per_m2: 0.8,
+                    cost,
+                };
+                let smooth = continuity.apply(&plan.path).ok()?;
+                let request = continuous(start, goal, Some(0.8));
+                let certificate = judge(&obstacles, &vehicle, &request, &smooth).certify();
+                Some(certificate.expect("a valid path").min_clearance_m)
+            };
+            if let (Some(blind_m), Some(default_m)) =
+                (clearance_m(&blind), clearance_m(&DriveCost::default()))
+            {
+                n_better += usize::from(default_m > blind_m + 0.02);
+                n_worse += usize::from(default_m < blind_m - 0.02);
+            }
+        }
+    }
+    // What is weighed is the whole way, so that its tightest place may pay for others.
+    assert!(
+        n_better >= 4 && n_worse <= 1,
+        "{n_better} better, {n_worse} worse"
+    );
+}
+
+#[test]
 fn a_rate_too_small_for_the_room_is_infeasible_and_says_where() {
     // Two bends of half a metre, and a rate at which the wheels need 400 m from one to the other.
     let obstacles = ObstacleMap::new(&field());
@@ -221,6 +272,7 @@ fn a_rate_too_small_for_the_room_is_infeasible_and_says_where() {
         obstacles: &obstacles,
         vehicle: &Vehicle::lei2020(),
         max_rate_per_m2: 0.001,
+        cost: &DriveCost::default(),
     };
     let problem = continuity.apply(&path).expect_err("no room");
     assert!(problem.to_string().contains("0.0010 1/m^2"), "{problem}");

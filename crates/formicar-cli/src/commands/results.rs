@@ -1,18 +1,35 @@
 //! Results of `bench` as they lie on disk, and reports about them.
 
 use crate::files;
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use formicar::map::format::write_atomically;
-use formicar_lab::campaign::{Stored, read_csv};
+use formicar_lab::campaign::{ConfigRecord, Stored, read_csv};
 use formicar_lab::report::{Fact, Page, Report, json, markdown, page};
 use serde_json::Value;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The name of a file without folders and extension.
 pub(super) fn name(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or(path.as_os_str());
     stem.to_string_lossy().into_owned()
+}
+
+/// Refuses a file that is named twice, be it by other names: its runs would count twice.
+pub(super) fn check_once<P: AsRef<Path>>(paths: &[P]) -> Result<()> {
+    let mut known: Vec<(PathBuf, &Path)> = Vec::new();
+    for path in paths.iter().map(AsRef::as_ref) {
+        // What is not there is told by whoever reads it.
+        let Ok(real) = path.canonicalize() else {
+            continue;
+        };
+        if let Some((_, other)) = known.iter().find(|(known, _)| *known == real) {
+            let (path, other) = (path.display(), other.display());
+            bail!("{path}: the same file as {other}; hint: name each file once");
+        }
+        known.push((real, path));
+    }
+    Ok(())
 }
 
 /// A store, or the table of one.
@@ -70,6 +87,16 @@ pub(super) fn report_files(
         ("report.json".to_owned(), json(&whole)),
         ("summary.md".to_owned(), markdown(report)),
     ]
+}
+
+/// Configurations by name, as JSON that can be read.
+pub(super) fn config_facts(configs: &[ConfigRecord]) -> Vec<Fact> {
+    let fact = |config: &ConfigRecord| {
+        let value = serde_json::from_str::<Value>(&config.json);
+        let pretty = value.map_or_else(|_| config.json.clone(), |value| format!("{value:#}"));
+        Fact::new(&config.name, pretty)
+    };
+    configs.iter().map(fact).collect()
 }
 
 /// Writes files into a folder, made where it does not exist.

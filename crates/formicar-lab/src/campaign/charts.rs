@@ -83,21 +83,15 @@ fn spread(
 }
 
 /// By how many percent a planner is above another, pair by pair; nothing without pairs.
-pub(super) fn differences([first, other]: [&[&Record]; 2]) -> Option<Block> {
-    let key = |record: &Record| {
-        ["scenario", "vehicle", "motion", "seed"].map(|c| record.get(c).to_owned())
-    };
-    let of_first: BTreeMap<_, &Record> = first.iter().map(|r| (key(r), *r)).collect();
+pub(super) fn differences(pairs: &[[&Record; 2]]) -> Option<Block> {
     let panel = |metric: &Metric| {
-        let difference = |record: &&Record| {
-            let base = metric
-                .of(of_first.get(&key(record))?)
-                .filter(|v| *v > 0.0)?;
-            Some(100.0 * (metric.of(record)? / base - 1.0))
+        let difference = |[first, other]: &[&Record; 2]| {
+            let base = metric.of(first).filter(|v| *v > 0.0)?;
+            Some(100.0 * (metric.of(other)? / base - 1.0))
         };
         PairedPanel {
             name: metric.name.to_owned(),
-            differences: other.iter().filter_map(difference).collect(),
+            differences: pairs.iter().filter_map(difference).collect(),
         }
     };
     let drawn = metrics(&TIMES)
@@ -155,7 +149,7 @@ fn by_time_and_steps(records: &[Record]) -> Bands {
     Bands {
         caption: "Certified paths of the solved runs alone, from the beginning of the query on: \
                   median and the band between quartiles, from where three quarters of a planner's \
-                  solved runs have a path."
+                  solved runs have a path; a dot with its quartiles where all of that is one place."
             .to_owned(),
         quantity: "length over the least of its scenario".to_owned(),
         y_scale: ScaleKind::Linear,
@@ -182,7 +176,8 @@ fn by_iteration(records: &[Record]) -> Bands {
     Bands {
         caption: "Ways of the ants in the solved runs alone: the least cost up to an iteration \
                   over that after the last one, median and the band between quartiles, from where \
-                  three quarters of a colony's solved runs have a way."
+                  three quarters of a colony's solved runs have a way; a dot where that is one \
+                  iteration."
             .to_owned(),
         quantity: "least cost over the last of its run".to_owned(),
         y_scale: ScaleKind::Linear,
@@ -243,6 +238,19 @@ mod tests {
         assert_eq!(points[points.len() - 1], [400.0, 1.0, 1.0, 1.0]);
         assert!(bands.caption.contains("solved runs alone"));
         assert_eq!(convergence(&records[..3]), None);
+    }
+
+    #[test]
+    fn a_colony_of_one_iteration_is_a_dot() {
+        let mut records = vec![run("ants", 0, true), run("ants", 1, true)];
+        for record in &mut records {
+            record.history.iterations = vec![json!({"best_so_far_cost": 6.0})];
+        }
+        let Block::Bands(bands) = &convergence(&records).unwrap().blocks[1] else {
+            panic!("no picture by iteration");
+        };
+        assert_eq!(bands.panels[0].courses[0].points, [[1.0; 4]]);
+        assert!(bands.to_svg().contains("<circle"));
     }
 
     #[test]

@@ -64,6 +64,9 @@ pub struct Contender {
     /// The program that plans in the planner's place, which then stands for nothing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rival: Option<RivalCommand>,
+    /// Keys of the parameters that a tuning has found, as its file holds them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tuned: Vec<String>,
 }
 
 /// A program that plans.

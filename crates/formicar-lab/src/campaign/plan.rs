@@ -30,6 +30,8 @@ pub struct ConfigRecord {
     pub hash: String,
     /// All its parameters, as JSON.
     pub json: String,
+    /// Keys of those that a tuning has found.
+    pub tuned: Vec<String>,
 }
 
 /// A run with what it depends on, as hashes.
@@ -73,6 +75,7 @@ impl ConfigRecord {
             name: name.to_owned(),
             hash: hash(&json),
             json,
+            tuned: Vec::new(),
         }
     }
 }
@@ -161,6 +164,7 @@ pub(super) mod tests {
                 planner: PlannerName::Astar,
                 config: toml::Table::new(),
                 rival: None,
+                tuned: Vec::new(),
             },
             seed,
             limits: Limits::default(),

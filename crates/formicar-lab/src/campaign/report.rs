@@ -5,11 +5,12 @@
 use super::charts;
 use super::record::Record;
 use crate::compare::{
-    Duel, METHOD, METRICS, Metric, SUCCESS, Scope, not_run, planners, runs_of, told_not_run,
+    Duel, METHOD, METRICS, Metric, SUCCESS, Scope, not_run, paired, planners, runs_of, told_not_run,
 };
 use crate::report::{Field, Report, Section, Table};
 use crate::statistics::quartiles;
 use anyhow::Result;
+use formicar::numeric::counted;
 
 /// The report of runs under a name.
 ///
@@ -21,11 +22,17 @@ pub fn report(name: &str, records: &[Record]) -> Result<Report> {
     sections.extend(beside_the_first(records)?);
     sections.push(of_scenarios(records));
     Ok(Report {
-        name: "campaign".to_owned(),
+        name: name_of(name),
         title: name.to_owned(),
         intro: intro(records),
         sections,
     })
+}
+
+/// What names of numbers begin with: the campaign's name where it has letters or digits for that.
+fn name_of(name: &str) -> String {
+    let is_word = name.contains(|c: char| c.is_ascii_alphanumeric());
+    if is_word { name } else { "campaign" }.to_owned()
 }
 
 fn intro(records: &[Record]) -> String {
@@ -36,11 +43,12 @@ fn intro(records: &[Record]) -> String {
         String::new()
     };
     format!(
-        "{} runs of {n_planners} planners on {} scenarios. Solved: a path with the judge's \
+        "{} of {} on {}. Solved: a path with the judge's \
          certificate was returned. Metrics are those of solved runs, as median and quartiles.\
          {method}",
-        records.len(),
-        places(records).len()
+        counted(records.len(), "run"),
+        counted(n_planners, "planner"),
+        counted(places(records).len(), "scenario")
     )
 }
 
@@ -88,7 +96,7 @@ fn beside_the_first(records: &[Record]) -> Result<Vec<Section>> {
         let mut section = duel.section([first, other]);
         section
             .blocks
-            .extend(charts::differences([&of_first, &of_other]));
+            .extend(charts::differences(&paired(&of_first, &of_other)?));
         Ok(section)
     });
     sections.collect()
@@ -184,7 +192,7 @@ mod tests {
             .collect();
         let text = markdown(&report("a campaign", &records).unwrap());
         assert!(
-            text.contains("6 runs of 2 planners on 1 scenarios"),
+            text.contains("6 runs of 2 planners on 1 scenario."),
             "{text}"
         );
         assert!(text.contains("| one | 3/3 [44, 100] % | - | - | 11.000 [10.500, 11.500] |"));

@@ -7,7 +7,7 @@
 use super::lock::Lock;
 use super::plan::Campaign;
 use super::record::Record;
-use super::stored::{SCHEMA, Stored, check_schema, columns, fact, no_store};
+use super::stored::{AT_ONCE, SCHEMA, Stored, check_schema, columns, fact, no_store, numbers};
 use anyhow::{Context, Result, bail};
 use rusqlite::types::Value;
 use rusqlite::{Connection, params_from_iter};
@@ -83,6 +83,24 @@ impl Store {
         let sql = format!("INSERT INTO run VALUES ({marks})");
         let inserted = self.connection.execute(&sql, params_from_iter(values));
         inserted.with_context(|| self.path.display().to_string())?;
+        Ok(())
+    }
+
+    /// Notes that runs which are still missing are done so many at once: it tells on their times.
+    /// It is no part of the campaign; a store that was filled in several ways knows them all.
+    ///
+    /// # Errors
+    /// A store that cannot be read or written.
+    pub fn note_runs_at_once(&mut self, n_at_once: u32) -> Result<()> {
+        if self.missing()?.is_empty() {
+            return Ok(());
+        }
+        let mut known = numbers(&self.connection, AT_ONCE)?;
+        known.insert(n_at_once);
+        let known: Vec<String> = known.iter().map(u32::to_string).collect();
+        let sql = "INSERT OR REPLACE INTO fact VALUES (?, ?)";
+        let noted = self.connection.execute(sql, (AT_ONCE, known.join(" ")));
+        noted.with_context(|| self.path.display().to_string())?;
         Ok(())
     }
 
@@ -289,7 +307,24 @@ mod tests {
         let stored = Stored::read(&path).unwrap();
         assert_eq!(stored.records, [done(&campaign, 0), done(&campaign, 2)]);
         assert_eq!((stored.n_planned, stored.configs), (3, campaign.configs));
+        assert!(stored.n_at_once.is_empty(), "nobody has noted it");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn how_many_ran_at_once_is_known_and_no_part_of_the_campaign() {
+        let folder = tempfile::tempdir().unwrap();
+        let (path, campaign) = (folder.path().join("a.sqlite"), campaign(2));
+        let mut store = Store::open(&path, &campaign, "0.1.0").unwrap();
+        store.note_runs_at_once(4).unwrap();
+        store.add(0, &done(&campaign, 0)).unwrap();
+        store.finish().unwrap();
+        let mut store = Store::open(&path, &campaign, "0.1.0").unwrap();
+        store.note_runs_at_once(1).unwrap();
+        store.add(1, &done(&campaign, 1)).unwrap();
+        // Nothing is left to be done.
+        store.note_runs_at_once(9).unwrap();
+        assert_eq!(Vec::from_iter(store.stored().unwrap().n_at_once), [1, 4]);
     }
 
     #[test]

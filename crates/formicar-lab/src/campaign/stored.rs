@@ -8,12 +8,15 @@ use super::table::to_csv;
 use anyhow::{Context, Result, anyhow, bail};
 use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OpenFlags, OptionalExtension};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
 use std::path::Path;
 
 /// Name and version of the tables.
 pub(super) const SCHEMA: &str = "formicar/store/1";
+
+/// The fact of how many runs were done at once.
+pub(super) const AT_ONCE: &str = "runs_at_once";
 
 /// A store as it stands.
 #[derive(Clone, Debug, Default)]
@@ -26,6 +29,9 @@ pub struct Stored {
     pub n_planned: usize,
     /// The runs that are over, in the order of the campaign.
     pub records: Vec<Record>,
+    /// How many runs were done at once; several numbers where it was filled in several ways, none
+    /// where that is not known.
+    pub n_at_once: BTreeSet<u32>,
     /// The configurations of its planners.
     pub configs: Vec<ConfigRecord>,
     /// What the processes of its runs are told, by key; none of a table.
@@ -52,6 +58,7 @@ impl Stored {
 
     /// What stands in a store that is open.
     pub(super) fn of(connection: &Connection) -> Result<Self> {
+        let jobs = jobs(connection)?;
         let n_planned: i64 =
             connection.query_row("SELECT count(*) FROM planned", [], |r| r.get(0))?;
         Ok(Self {
@@ -59,8 +66,9 @@ impl Stored {
             text: fact(connection, "text")?,
             n_planned: n_planned as usize,
             records: records(connection)?,
-            configs: configs(connection)?,
-            jobs: jobs(connection)?,
+            n_at_once: numbers(connection, AT_ONCE)?,
+            configs: configs(connection, &jobs)?,
+            jobs,
         })
     }
 
@@ -113,6 +121,15 @@ pub(super) fn fact(connection: &Connection, name: &str) -> Result<String> {
         .with_context(|| format!("it does not tell its {name}"))
 }
 
+/// The numbers of a fact that need not be there.
+pub(super) fn numbers(connection: &Connection, name: &str) -> Result<BTreeSet<u32>> {
+    let sql = "SELECT value FROM fact WHERE name = ?";
+    let value = connection.query_row(sql, [name], |row| row.get::<_, String>(0));
+    let words = value.optional()?.unwrap_or_default();
+    let numbers = words.split_whitespace().map(str::parse);
+    Ok(numbers.collect::<Result<_, _>>()?)
+}
+
 fn jobs(connection: &Connection) -> Result<BTreeMap<String, Job>> {
     let mut statement = connection.prepare("SELECT run, job FROM planned")?;
     let mut rows = statement.query([])?;
@@ -124,12 +141,20 @@ fn jobs(connection: &Connection) -> Result<BTreeMap<String, Job>> {
     Ok(jobs)
 }
 
-fn configs(connection: &Connection) -> Result<Vec<ConfigRecord>> {
+fn configs(connection: &Connection, jobs: &BTreeMap<String, Job>) -> Result<Vec<ConfigRecord>> {
+    let contenders = jobs.values().map(|job| &job.contender);
+    let tuned: BTreeMap<&str, &[String]> = contenders
+        .map(|contender| (contender.name.as_str(), &contender.tuned[..]))
+        .collect();
     let sql = "SELECT name, hash, parameters FROM config ORDER BY rowid";
     let mut statement = connection.prepare(sql)?;
     let configs = statement.query_map([], |row| {
+        let name: String = row.get(0)?;
         Ok(ConfigRecord {
-            name: row.get(0)?,
+            tuned: tuned
+                .get(name.as_str())
+                .map_or_else(Vec::new, |keys| keys.to_vec()),
+            name,
             hash: row.get(1)?,
             json: row.get(2)?,
         })

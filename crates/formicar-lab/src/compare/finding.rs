@@ -73,7 +73,7 @@ pub(super) fn findings(pairs: &Pairs, scope: Scope) -> Vec<Finding> {
     let comparable = |metric: &Metric| is_like || metric.kind == Kind::Result;
     let metrics = METRICS.iter().filter(|metric| scope.holds(metric));
     let both: Vec<(&Metric, Values)> = metrics
-        .map(|metric| (metric, Values::new(metric, &pairs.pairs)))
+        .map(|metric| (metric, Values::new(metric, &pairs.all)))
         .collect();
     let tested = both.iter().filter(|(metric, _)| comparable(metric));
     let raw: Vec<f64> = tested.filter_map(|(_, values)| values.p()).collect();

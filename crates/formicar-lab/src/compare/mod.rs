@@ -12,6 +12,7 @@ pub use metric::{Better, Kind, METRICS, Metric, SUCCESS, Scope};
 pub use tables::METHOD;
 
 pub(crate) use not_run::{not_run, told_not_run};
+pub(crate) use pairs::paired;
 
 use crate::campaign::Record;
 use anyhow::{Result, bail};
@@ -114,12 +115,13 @@ impl Duel {
         let notes = [
             pairs.unlike_measurements().filter(|_| scope == Scope::All),
             pairs.unlike_limits(),
+            pairs.repeats(),
             pairs.not_run(),
             finding::repeats(&findings),
         ];
         Ok(Self {
             planners: [planner(a), planner(b)],
-            n_pairs: pairs.pairs.len(),
+            n_pairs: pairs.all.len(),
             n_alone: pairs.n_alone,
             lost: pairs.names([true, false]),
             gained: pairs.names([false, true]),

@@ -15,16 +15,38 @@ pub(super) struct Pair<'a> {
 /// The pairs of two sides, in the order of the first.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pairs<'a> {
-    pub(super) pairs: Vec<Pair<'a>>,
+    pub(super) all: Vec<Pair<'a>>,
     /// Runs of the first and of the second side that the other has not.
     pub(super) n_alone: [usize; 2],
+    /// Runs of each side that repeat another one of theirs, under another name of the vehicle.
+    n_repeats: [usize; 2],
 }
 
 /// Scenario, vehicle, motion and seed. Tables that know no vehicle or motion have but one.
 type Place<'a> = [&'a str; 4];
 
-fn place(record: &Record) -> Place<'_> {
-    ["scenario", "vehicle", "motion", "seed"].map(|column| record.get(column))
+fn place<'a>(record: &'a Record, vehicle: &str) -> Place<'a> {
+    ["scenario", vehicle, "motion", "seed"].map(|column| record.get(column))
+}
+
+/// By which column vehicles are told apart: by what the judge sees of them, since one vehicle may
+/// go by two names, or by name where that is not known of all runs.
+fn vehicle_column(a: &[&Record], b: &[&Record]) -> &'static str {
+    let mut runs = a.iter().chain(b);
+    if runs.all(|run| !run.get("vehicle_hash").is_empty()) {
+        "vehicle_hash"
+    } else {
+        "vehicle"
+    }
+}
+
+/// The first run of each place.
+fn by_place<'a>(runs: &[&'a Record], vehicle: &str) -> BTreeMap<Place<'a>, &'a Record> {
+    let mut by_place = BTreeMap::new();
+    for run in runs {
+        by_place.entry(place(run, vehicle)).or_insert(*run);
+    }
+    by_place
 }
 
 impl<'a> Pairs<'a> {
@@ -33,10 +55,16 @@ impl<'a> Pairs<'a> {
     /// # Errors
     /// Scenarios of one name whose maps or vehicles are not the same; sides without a pair.
     pub(super) fn new(a: &[&'a Record], b: &[&'a Record]) -> Result<Self> {
-        let of_b: BTreeMap<Place, &Record> = b.iter().map(|r| (place(r), *r)).collect();
+        let named = by_place(b, "vehicle");
+        for record in a {
+            let other = named.get(&place(record, "vehicle"));
+            other.map_or(Ok(()), |other| check(record, other))?;
+        }
+        let vehicle = vehicle_column(a, b);
+        let of_b = by_place(b, vehicle);
         let (mut pairs, mut met) = (Vec::new(), BTreeSet::new());
-        for record in a.iter().filter(|record| met.insert(place(record))) {
-            if let Some(other) = of_b.get(&place(record)) {
+        for record in a.iter().filter(|run| met.insert(place(run, vehicle))) {
+            if let Some(other) = of_b.get(&place(record, vehicle)) {
                 check(record, other)?;
                 pairs.push(Pair {
                     a: record,
@@ -44,8 +72,11 @@ impl<'a> Pairs<'a> {
                 });
             }
         }
-        let n_alone = [met.len() - pairs.len(), of_b.len() - pairs.len()];
-        Ok(Self { pairs, n_alone })
+        Ok(Self {
+            n_alone: [met.len() - pairs.len(), of_b.len() - pairs.len()],
+            n_repeats: [a.len() - met.len(), b.len() - of_b.len()],
+            all: pairs,
+        })
     }
 
     /// Why measurements of the sides do not compare; none where they do.
@@ -56,7 +87,7 @@ impl<'a> Pairs<'a> {
             ("cold", "warm-up"),
         ] {
             let mut values = self
-                .pairs
+                .all
                 .iter()
                 .flat_map(|pair| [pair.a.get(column), pair.b.get(column)]);
             let first = values.next().unwrap_or_default();
@@ -79,7 +110,7 @@ impl<'a> Pairs<'a> {
     /// Which runs of each side count for nothing, in words.
     pub(super) fn not_run(&self) -> Option<String> {
         let runs = |side: fn(&Pair<'a>) -> &'a Record| -> Vec<&Record> {
-            self.pairs.iter().map(side).collect()
+            self.all.iter().map(side).collect()
         };
         let of_sides = [
             ("first", runs(|pair| pair.a)),
@@ -97,13 +128,25 @@ impl<'a> Pairs<'a> {
         })
     }
 
+    /// Runs that are left out since they repeat others, in words.
+    pub(super) fn repeats(&self) -> Option<String> {
+        let [a, b] = self.n_repeats;
+        (a + b > 0).then(|| {
+            format!(
+                "Runs of one scenario, motion mode and seed with the same vehicle under two names \
+                 (the same footprint and tightest turn) count once: {a} of the first side and {b} \
+                 of the second are left out."
+            )
+        })
+    }
+
     /// Runs that one side alone solves, by what tells them apart; how the other side refused is
     /// told behind them. `solved` is whether each side does.
     pub(super) fn names(&self, solved: [bool; 2]) -> Vec<String> {
-        let Some(first) = self.pairs.first().map(Pair::scenario) else {
+        let Some(first) = self.all.first().map(Pair::scenario) else {
             return Vec::new();
         };
-        let varies = |i: usize| self.pairs.iter().any(|p| p.scenario()[i] != first[i]);
+        let varies = |i: usize| self.all.iter().any(|p| p.scenario()[i] != first[i]);
         let is_named = [true, varies(1), varies(2)];
         let wanted = |pair: &&Pair| [pair.a.row.is_solved(), pair.b.row.is_solved()] == solved;
         let name = |pair: &Pair| {
@@ -113,13 +156,13 @@ impl<'a> Pairs<'a> {
             let status = not_run(other).map_or(String::new(), |status| format!(" ({status})"));
             format!("{} seed {}{status}", words.join(" "), pair.a.get("seed"))
         };
-        self.pairs.iter().filter(wanted).map(name).collect()
+        self.all.iter().filter(wanted).map(name).collect()
     }
 
     /// Other limits of the two sides, in words.
     pub(super) fn unlike_limits(&self) -> Option<String> {
         let differs = |column: &str| {
-            let mut pairs = self.pairs.iter();
+            let mut pairs = self.all.iter();
             pairs.any(|pair| pair.a.get(column) != pair.b.get(column))
         };
         let columns = ["budget_steps", "deadline_ms"];
@@ -127,6 +170,15 @@ impl<'a> Pairs<'a> {
         let names = unlike.join(" and ");
         (!unlike.is_empty()).then(|| format!("The sides ran under other limits: {names} differ."))
     }
+}
+
+/// The pairs of two sides, as [`Pairs`] makes them.
+///
+/// # Errors
+/// Scenarios of one name whose maps or vehicles are not the same.
+pub(crate) fn paired<'a>(a: &[&'a Record], b: &[&'a Record]) -> Result<Vec<[&'a Record; 2]>> {
+    let pairs = Pairs::new(a, b)?.all.into_iter();
+    Ok(pairs.map(|pair| [pair.a, pair.b]).collect())
 }
 
 impl<'a> Pair<'a> {

@@ -22,7 +22,7 @@ impl Comparison {
         let [a, b] = &self.sides;
         let duels = self.duels.iter();
         Report {
-            name: "compare".to_owned(),
+            name: format!("compare {a} {b}"),
             title: format!("{b} beside {a}"),
             intro: format!("Verdicts are on {b}: better or worse than {a}. {METHOD}"),
             sections: duels.map(|duel| duel.section([a, b])).collect(),

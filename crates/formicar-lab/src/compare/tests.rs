@@ -102,6 +102,64 @@ fn a_side_does_not_differ_from_itself() {
     assert!(findings.iter().all(is_equal));
 }
 
+/// Runs with a vehicle of a name and a hash.
+fn driven_by(vehicle: [&str; 2], side: &Side) -> Side {
+    let mut side = side.clone();
+    for record in &mut side.records {
+        record.origin.set("vehicle", vehicle[0]);
+        record.origin.set("vehicle_hash", vehicle[1]);
+    }
+    side
+}
+
+#[test]
+fn one_vehicle_under_two_names_is_one_vehicle() {
+    let [own, sedan] = [["own", "v"], ["sedan", "v"]];
+    let (a, b) = (side("a", "p", base), side("b", "p", other));
+    // Another name on the other side is no other vehicle.
+    let found = compare(&driven_by(own, &a), &driven_by(sedan, &b));
+    assert_eq!(
+        (found.duels[0].n_pairs, found.duels[0].n_alone),
+        (24, [0, 0])
+    );
+    // Both names on both sides are no more evidence than one.
+    let both = |side: &Side| {
+        let mut both = driven_by(own, side);
+        both.records.extend(driven_by(sedan, side).records);
+        both
+    };
+    let found = compare(&both(&a), &both(&b));
+    assert_eq!(
+        (found.duels[0].n_pairs, found.duels[0].n_alone),
+        (24, [0, 0])
+    );
+    let note = &found.duels[0].notes[0];
+    assert!(
+        note.contains("24 of the first side and 24 of the second"),
+        "{note}"
+    );
+    // Other vehicles stay others, and names count where not all hashes are known.
+    let kart = driven_by(["kart", "w"], &a);
+    assert!(Comparison::new(&kart, &driven_by(sedan, &b), Scope::All).is_err());
+    let error = Comparison::new(
+        &driven_by(["own", "w"], &a),
+        &driven_by(own, &b),
+        Scope::All,
+    );
+    assert!(
+        error
+            .unwrap_err()
+            .to_string()
+            .contains("vehicles of the two sides")
+    );
+    let unknown = driven_by(["sedan", ""], &a);
+    assert_eq!(
+        compare(&unknown, &driven_by(sedan, &b)).duels[0].n_pairs,
+        24
+    );
+    assert!(Comparison::new(&unknown, &driven_by(own, &b), Scope::All).is_err());
+}
+
 #[test]
 fn lost_runs_are_named_and_left_out_of_paths() {
     let found = compare(&side("a", "p", base), &side("b", "p", failing));

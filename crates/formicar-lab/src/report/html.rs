@@ -1,6 +1,6 @@
 //! Reports as one page that needs nothing else.
 
-use super::keys::{Keys, NamedPart};
+use super::keys::{Keys, NamedPart, slug};
 use super::provenance::config_hash;
 use super::{Block, Field, Figure, PROSE_CHARS, Report, Section, Table, Verdict};
 use std::fmt::Write;
@@ -138,13 +138,25 @@ fn is_narrow(figure: Option<&Figure>) -> bool {
 }
 
 fn write_table(text: &mut String, table: &Table, named: &[Vec<Vec<NamedPart>>]) {
-    let (key, caption) = (&table.key, inline(&table.caption));
-    if !caption.is_empty() {
-        let _ = writeln!(
+    let (key, caption) = (slug(&table.key), inline(&table.caption));
+    let _ = match (table.is_folded, caption.is_empty()) {
+        (true, _) => writeln!(
+            text,
+            "<details class=\"sheet\"><summary id=\"about-{key}\">{caption}</summary>"
+        ),
+        (false, true) => Ok(()),
+        (false, false) => writeln!(
             text,
             "<p class=\"caption\" id=\"about-{key}\">{caption}</p>"
-        );
+        ),
+    };
+    write_rows(text, table, (&key, named));
+    if table.is_folded {
+        text.push_str("</details>\n");
     }
+}
+
+fn write_rows(text: &mut String, table: &Table, (key, named): (&str, &[Vec<Vec<NamedPart>>])) {
     let _ = writeln!(
         text,
         "<div class=\"table\"><table id=\"table-{key}\" aria-describedby=\"about-{key}\">"

@@ -64,6 +64,21 @@ impl Keys {
     }
 }
 
+/// Some words as one, for names of places in a document: small letters, digits and hyphens.
+pub(super) fn slug(words: &str) -> String {
+    let mut slug = String::new();
+    for c in words.chars() {
+        if c.is_ascii_alphanumeric() {
+            slug.push(c.to_ascii_lowercase());
+        } else if !slug.is_empty() && !slug.ends_with('-') {
+            slug.push('-');
+        }
+    }
+    let n = slug.trim_end_matches('-').len();
+    slug.truncate(n);
+    slug
+}
+
 /// The letters of some words, each word and each digit beginning with a capital.
 fn letters(words: &str) -> String {
     const DIGITS: [&str; 10] = [

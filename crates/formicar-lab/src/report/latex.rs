@@ -1,11 +1,13 @@
 //! Tables as LaTeX, with a macro for every number.
 
-use super::keys::{Keys, NamedPart};
+use super::keys::{Keys, NamedPart, slug};
 use super::{Field, PROSE_CHARS, Report, Table};
 use std::fmt::Write;
 
 /// The tables of a report for `\input` in a document that uses `booktabs`: first a `\newcommand`
-/// per number, for use in running text, then the tables, which use the same macros.
+/// per number, for use in running text, then the tables, which use the same macros. Macros and
+/// labels begin with the report's name, so that reports of other names go into the same document.
+/// Tables that a page folds may run over pages, by `longtable`.
 pub fn latex(report: &Report) -> String {
     let mut keys = Keys::of(report);
     let (mut macros, mut tables) = (String::new(), String::new());
@@ -21,10 +23,14 @@ pub fn latex(report: &Report) -> String {
         }
         tables.push_str(&of_table(report, table, &named));
     }
-    format!(
-        "% {}\n% Needs \\usepackage{{booktabs}}.\n{macros}{tables}",
-        report.title
-    )
+    let is_long = report.tables().any(|table| table.is_folded);
+    let packages = if is_long {
+        "booktabs,longtable"
+    } else {
+        "booktabs"
+    };
+    let title = report.title.replace(char::is_control, " ");
+    format!("% {title}\n% Needs \\usepackage{{{packages}}}.\n{macros}{tables}")
 }
 
 fn of_table(report: &Report, table: &Table, named: &[Vec<Vec<NamedPart>>]) -> String {
@@ -35,14 +41,25 @@ fn of_table(report: &Report, table: &Table, named: &[Vec<Vec<NamedPart>>]) -> St
         &table.caption
     };
     let heading: Vec<String> = table.heading.iter().map(|name| escaped(name)).collect();
-    let mut text = format!(
-        "\n\\begin{{table}}\n\\caption{{{}}}\n\\label{{tab:{}-{}}}\n\\begin{{tabular}}{{{columns}}}\n\
-         \\toprule\n{} \\\\\n\\midrule\n",
-        escaped(caption),
-        report.name,
-        table.key,
-        heading.join(" & ")
-    );
+    let label = slug(&format!("{} {}", report.name, table.key));
+    let about = format!("\\caption{{{}}}\n\\label{{tab:{label}}}", escaped(caption));
+    let head = format!("\\toprule\n{} \\\\\n\\midrule\n", heading.join(" & "));
+    let (begin, end) = if table.is_folded {
+        (
+            format!("\\begin{{longtable}}{{{columns}}}\n{about} \\\\\n{head}\\endhead\n"),
+            "\\end{longtable}\n",
+        )
+    } else {
+        (
+            format!("\\begin{{table}}\n{about}\n\\begin{{tabular}}{{{columns}}}\n{head}"),
+            "\\end{tabular}\n\\end{table}\n",
+        )
+    };
+    format!("\n{begin}{}\\bottomrule\n{end}", rows(table, named))
+}
+
+fn rows(table: &Table, named: &[Vec<Vec<NamedPart>>]) -> String {
+    let mut text = String::new();
     for (row, named) in table.rows.iter().zip(named) {
         let fields = row.iter().zip(named).map(|(field, parts)| {
             let macros: Vec<String> = parts.iter().map(|p| format!("\\{}{{}}", p.key)).collect();
@@ -55,9 +72,16 @@ fn of_table(report: &Report, table: &Table, named: &[Vec<Vec<NamedPart>>]) -> St
             }
         });
         let fields: Vec<String> = fields.collect();
-        let _ = writeln!(text, "{} \\\\", fields.join(" & "));
+        let row = fields.join(" & ");
+        // Behind the end of a row these two would be read as part of it.
+        let guard = if row.starts_with(['[', '*']) {
+            "{}"
+        } else {
+            ""
+        };
+        let _ = writeln!(text, "{guard}{row} \\\\");
     }
-    text + "\\bottomrule\n\\end{tabular}\n\\end{table}\n"
+    text
 }
 
 /// How a column is set: numbers from the right, words from the left, long ones in several lines.
@@ -95,6 +119,7 @@ fn escaped_char(c: char) -> String {
         '<' => "$<$".to_owned(),
         '>' => "$>$".to_owned(),
         '%' | '&' | '#' | '_' | '$' | '{' | '}' => format!("\\{c}"),
+        c if c.is_control() => " ".to_owned(),
         c => c.to_string(),
     }
 }
@@ -102,7 +127,69 @@ fn escaped_char(c: char) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::Section;
+    use crate::report::{Block, Section};
+
+    /// A report under a name, of one row that is called so too.
+    fn named(name: &str) -> Report {
+        let mut table = Table::new(&format!("compare {name}"), &["who", "m"]);
+        table.row(vec![Field::words(name), Field::Number(Some(1.0), 0)]);
+        Report {
+            name: name.to_owned(),
+            title: name.to_owned(),
+            sections: vec![Section::of_table("Part", table)],
+            ..Report::default()
+        }
+    }
+
+    #[test]
+    fn names_of_campaigns_are_safe_in_labels_captions_and_macros() {
+        let text = latex(&named("My 1st_run & #2 {50 %}\n\n~^$\\"));
+        let label = "\\label{tab:my-1st-run-2-50-compare-my-1st-run-2-50}";
+        assert!(text.contains(label), "{text}");
+        let caption = "\\caption{My 1st\\_run \\& \\#2 \\{50 \\%\\}  \\textasciitilde{}\
+                       \\textasciicircum{}\\$\\textbackslash{}}";
+        assert!(text.contains(caption), "{text}");
+        assert!(
+            text.starts_with("% My 1st_run & #2 {50 %}  ~^$\\\n% Needs"),
+            "{text}"
+        );
+        let name = text.split("\\newcommand{\\").nth(1).unwrap();
+        let name = name.split_once('}').unwrap().0;
+        assert!(name.bytes().all(|b| b.is_ascii_alphabetic()), "{name}");
+        assert!(latex(&named("[a]")).contains("\n{}[a] & "));
+    }
+
+    #[test]
+    fn two_reports_go_into_one_document() {
+        let names = |name: &str| -> Vec<String> {
+            let text = latex(&named(name));
+            let lines = text.lines();
+            let lines = lines.filter(|l| l.contains("\\newcommand") || l.contains("\\label"));
+            lines.map(str::to_owned).collect()
+        };
+        let (one, other) = (names("junctions, slow"), names("junctions, fast"));
+        assert_eq!((one.len(), other.len()), (2, 2));
+        assert!(one.iter().all(|name| !other.contains(name)), "{one:?}");
+    }
+
+    #[test]
+    fn folded_tables_may_run_over_pages() {
+        let mut report = named("p");
+        let Block::Table(table) = &mut report.sections[0].blocks[0] else {
+            panic!("a table");
+        };
+        table.is_folded = true;
+        let text = latex(&report);
+        assert!(
+            text.contains("% Needs \\usepackage{booktabs,longtable}."),
+            "{text}"
+        );
+        assert!(
+            text.contains("\\label{tab:p-compare-p} \\\\\n\\toprule\nwho & m \\\\"),
+            "{text}"
+        );
+        assert!(text.ends_with("\\bottomrule\n\\end{longtable}\n"), "{text}");
+    }
 
     #[test]
     fn numbers_are_macros_and_words_are_escaped() {

@@ -26,6 +26,7 @@ pub use markdown::markdown;
 pub use numbers::numbers_csv;
 pub use ompl_log::{OmplLog, OmplPlanner, OmplRun, Property, PropertyKind};
 pub use overlay::{Overlay, OverlayPath, strips};
+pub(crate) use parameters::leaves;
 pub use parameters::{Known, Parameter, ParameterSheet, Source};
 pub use plot::{BandPanel, Bands, BoxGroup, BoxPlot, Course, PairedPanel, PairedPlot, ScaleKind};
 pub use provenance::config_hash;
@@ -38,7 +39,7 @@ const PROSE_CHARS: usize = 34;
 /// A document; words between backticks are set as code.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
-    /// What the folder and the names of numbers begin with: a word.
+    /// What the names of numbers and tables begin with, and of a reproduction its folder.
     pub name: String,
     /// The heading.
     pub title: String,

@@ -57,10 +57,8 @@ impl ParameterSheet {
     /// The leaves of a configuration whose keys begin with one of `parts`. What is not known is
     /// chosen; of what is known the longest key counts.
     pub fn new(config: &Value, parts: &[&str], known: &[Known]) -> Self {
-        let mut leaves = Vec::new();
-        collect(config, String::new(), &mut leaves);
         let belongs = |key: &str| parts.iter().any(|part| is_under(key, part));
-        let leaves = leaves.into_iter().filter(|(key, _)| belongs(key));
+        let leaves = leaves(config).into_iter().filter(|(key, _)| belongs(key));
         let parameter = |(key, value): (String, String)| {
             let of_key = known.iter().filter(|(part, ..)| is_under(&key, part));
             let best = of_key.max_by_key(|(part, ..)| part.len());
@@ -98,6 +96,13 @@ impl ParameterSheet {
 fn is_under(key: &str, part: &str) -> bool {
     let rest = key.strip_prefix(part);
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+}
+
+/// The values of a configuration by dotted key.
+pub(crate) fn leaves(config: &Value) -> Vec<(String, String)> {
+    let mut leaves = Vec::new();
+    collect(config, String::new(), &mut leaves);
+    leaves
 }
 
 fn collect(value: &Value, key: String, leaves: &mut Vec<(String, String)>) {

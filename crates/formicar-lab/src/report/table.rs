@@ -13,6 +13,8 @@ pub struct Table {
     pub heading: Vec<String>,
     /// The rows.
     pub rows: Vec<Row>,
+    /// Whether a page shows the caption alone until a reader wants more; on paper all of it.
+    pub is_folded: bool,
 }
 
 /// A row: the first field is its name.
@@ -26,6 +28,7 @@ impl Table {
             caption: String::new(),
             heading: heading.iter().map(|&name| name.to_owned()).collect(),
             rows: Vec::new(),
+            is_folded: false,
         }
     }
 

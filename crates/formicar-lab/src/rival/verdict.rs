@@ -1,8 +1,9 @@
 //! The judge's word on a foreign path, for a request.
 
 use formicar::collision::ObstacleMap;
+use formicar::geometry::{Pose2, angle_difference};
 use formicar::path::{CurvePath, Direction};
-use formicar::scenario::Request;
+use formicar::scenario::{Request, StartHeading};
 use formicar::validation::{
     FOREIGN_CURVATURE_SLACK, Report, Samples, Violation, ViolationKind, judge,
 };
@@ -30,7 +31,7 @@ impl Verdict {
         samples: &Samples,
     ) -> Option<Self> {
         let on = |path: CurvePath| {
-            let report = with_slack(judge(obstacles, vehicle, request, &path));
+            let report = findings((obstacles, vehicle), request, &path);
             Self { path, report }
         };
         if samples.points.is_empty() {
@@ -73,30 +74,61 @@ impl Verdict {
 /// Longest path that is measured, in times the width and height of the map.
 const MAX_LAPS: f64 = 100.0;
 
-/// Findings without those that rounding and sampling may cause.
-fn with_slack(mut report: Report) -> Report {
-    report.violations.retain(|violation| match violation.kind {
-        ViolationKind::Curvature => {
-            violation.amount > violation.limit * (1.0 + FOREIGN_CURVATURE_SLACK)
-        }
-        ViolationKind::Start => violation.amount > START_TOLERANCE,
-        _ => true,
+/// The judge's findings without those that rounding and sampling may cause. It is asked from where
+/// the path begins; how far that is off the start is held against the tolerance of samples here.
+fn findings(
+    (obstacles, vehicle): (&ObstacleMap, &Vehicle),
+    request: &Request,
+    path: &CurvePath,
+) -> Report {
+    let from_there = Request {
+        start: path.start(),
+        ..request.clone()
+    };
+    let mut report = judge(obstacles, vehicle, &from_there, path);
+    report.violations.retain(|violation| {
+        let most = violation.limit * (1.0 + FOREIGN_CURVATURE_SLACK);
+        violation.kind != ViolationKind::Curvature || violation.amount > most
     });
-    let starts = report.violations.iter_mut();
-    for violation in starts.filter(|v| v.kind == ViolationKind::Start) {
-        let limit = |amount: f64| format!("the limit is {amount} ");
-        let told = (limit(violation.limit), limit(START_TOLERANCE));
-        violation.message = violation.message.replace(&told.0, &told.1);
-        violation.limit = START_TOLERANCE;
-    }
+    let missed = misses(vehicle, request, path.start());
+    report.violations.splice(0..0, missed);
     report.valid = report.violations.is_empty();
     report
+}
+
+/// What a first pose misses of the start: the place, and the heading where that is asked for.
+fn misses(vehicle: &Vehicle, request: &Request, first: Pose2) -> Vec<Violation> {
+    let is_turned = vehicle.motion() == Motion::Car && request.start_heading == StartHeading::Exact;
+    let turn_rad = angle_difference(first.heading, request.start.heading).abs();
+    let off_m = first.position().distance(request.start.position());
+    let ends = [
+        ("start", off_m, "m"),
+        (
+            "start heading",
+            if is_turned { turn_rad } else { 0.0 },
+            "rad",
+        ),
+    ];
+    let missed = ends
+        .into_iter()
+        .filter(|(_, amount, _)| *amount > START_TOLERANCE);
+    let violation = |(what, amount, unit)| Violation {
+        kind: ViolationKind::Start,
+        s_m: 0.0,
+        pose: first,
+        amount,
+        limit: START_TOLERANCE,
+        message: format!(
+            "the path misses the {what} by {amount:.6} {unit}; the limit is {START_TOLERANCE} {unit}"
+        ),
+    };
+    missed.map(violation).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use formicar::geometry::{Point2, Pose2};
+    use formicar::geometry::Point2;
     use formicar::map::OccupancyGrid;
 
     fn ground() -> (ObstacleMap, Vehicle, Request) {
@@ -126,6 +158,23 @@ mod tests {
         let reason = off.reason().unwrap();
         assert!(reason.contains("misses the start"), "{reason}");
         assert!(reason.contains("the limit is 0.001 m"), "{reason}");
+        assert_eq!(off.report.violations.len(), 1, "{off:?}");
+        let mut turned = line(4.0, 12.0, 0.0);
+        turned.headings = turned.headings.map(|all| vec![0.01; all.len()]);
+        let first = of(&turned).report.violations.remove(0);
+        assert_eq!(
+            (first.kind, first.limit),
+            (ViolationKind::Start, START_TOLERANCE)
+        );
+        let told = "misses the start heading by 0.010000 rad; the limit is 0.001 rad";
+        assert!(first.message.contains(told), "{first:?}");
+        let anyhow = Request {
+            start_heading: StartHeading::Any,
+            ..request.clone()
+        };
+        let free = Verdict::new(&obstacles, &vehicle, &anyhow, &turned).unwrap();
+        let is_start = |v: &Violation| v.kind == ViolationKind::Start;
+        assert!(!free.report.violations.iter().any(is_start), "{free:?}");
         let short = of(&line(4.0, 10.0, 0.0));
         assert!(short.reason().unwrap().contains("misses the goal"));
         let far = of(&line(4.0, 1e6, 0.0));

@@ -7,7 +7,9 @@
 //! never time, so that the same tuning gives the same result anywhere.
 
 mod course;
+mod document;
 mod evaluate;
+mod leaf;
 mod objective;
 mod runs;
 mod space;
@@ -15,7 +17,9 @@ mod split;
 mod state;
 mod verdict;
 
+pub use document::{is_as_tuned, tuned_text};
 pub use evaluate::Tuning;
+pub(crate) use leaf::ranges;
 pub use objective::{Measure, Objective};
 pub use runs::{Asked, TunedRun};
 pub use space::{OwnRange, TuningSpace};

@@ -1,6 +1,7 @@
 //! Which parameters of a planner can be tuned, and in which ranges: the configuration's schema
 //! tells.
 
+use super::leaf::{Leaf, leaves};
 use anyhow::{Context, Result, bail};
 use formicar::planner::PlannerConfig;
 use formicar::tuning::{Dimension, Kind, ParameterSpace};
@@ -34,13 +35,6 @@ pub struct TuningSpace {
     choices: Vec<Vec<Value>>,
     /// The configuration around them.
     base: Value,
-}
-
-/// A leaf of the configuration: its key, its value, and its part of the schema.
-struct Leaf {
-    key: String,
-    value: Value,
-    schema: Value,
 }
 
 impl TuningSpace {
@@ -192,75 +186,6 @@ impl Leaf {
         let is_number = self.value.is_number();
         Ok(is_number.then(|| (Dimension::new(&self.key, kind), Vec::new())))
     }
-
-    /// The words that it can be; both positions of a switch.
-    fn words(&self) -> Vec<Value> {
-        if self.value.is_boolean() {
-            return vec![Value::Bool(false), Value::Bool(true)];
-        }
-        if !self.value.is_string() {
-            return Vec::new();
-        }
-        let variants = self.schema["oneOf"].as_array().into_iter().flatten();
-        let constants = variants.filter_map(|variant| variant.get("const").cloned());
-        let listed = self.schema["enum"].as_array().into_iter().flatten();
-        let words: Vec<Value> = constants.chain(listed.cloned()).collect();
-        if words.len() < 2 { Vec::new() } else { words }
-    }
-}
-
-/// All values of a configuration but the planner's name, the names of rules, and lists.
-fn leaves(base: &Value) -> Vec<Leaf> {
-    let schema = schemars::schema_for!(PlannerConfig).to_value();
-    let mut leaves = Vec::new();
-    collect(&mut leaves, String::new(), base, (&schema, &schema));
-    leaves.retain(|leaf| leaf.key != "planner");
-    // The order of a document's keys is that of the JSON library; that of dimensions is ours.
-    leaves.sort_by(|a, b| a.key.cmp(&b.key));
-    leaves
-}
-
-fn collect(leaves: &mut Vec<Leaf>, key: String, value: &Value, (part, whole): (&Value, &Value)) {
-    let part = resolved(part, whole);
-    let Value::Object(fields) = value else {
-        if !(value.is_array() || value.is_null()) {
-            leaves.push(Leaf {
-                key,
-                value: value.clone(),
-                schema: part,
-            });
-        }
-        return;
-    };
-    // The variant of the rule in use, beside what all variants have.
-    let variants = part["oneOf"].as_array().into_iter().flatten();
-    let variants = variants.map(|variant| resolved(variant, whole));
-    let of_rule: Vec<Value> = variants
-        .filter(|variant| variant["properties"]["rule"]["const"] == value["rule"])
-        .collect();
-    for (name, value) in fields {
-        if name == "rule" {
-            continue;
-        }
-        let places = std::iter::once(&part).chain(&of_rule);
-        let mut found = places.filter_map(|place| place["properties"].get(name));
-        let dot = if key.is_empty() { "" } else { "." };
-        let inner = found.next_back().unwrap_or(&Value::Null);
-        collect(leaves, format!("{key}{dot}{name}"), value, (inner, whole));
-    }
-}
-
-/// A part of a schema with what it refers to laid in.
-fn resolved(part: &Value, whole: &Value) -> Value {
-    let reference = part.get("$ref").and_then(Value::as_str);
-    let target = reference.and_then(|path| whole.pointer(path.trim_start_matches('#')));
-    let (Some(Value::Object(target)), Value::Object(own)) = (target, part) else {
-        return part.clone();
-    };
-    let mut merged = target.clone();
-    merged.extend(own.iter().map(|(key, value)| (key.clone(), value.clone())));
-    merged.remove("$ref");
-    Value::Object(merged)
 }
 
 fn pointer(key: &str) -> String {

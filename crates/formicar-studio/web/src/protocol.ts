@@ -10,12 +10,19 @@ export type Pose = [number, number, number];
 /** A planner's configuration document; its shape is the JSON schema of the catalog. */
 export type Config = { planner: string; [section: string]: unknown };
 
+/** A place to pass on the way, with any heading where none is given. */
+export interface Via {
+  at: [number, number];
+  heading?: number;
+  tolerance?: { xy: number; yaw: number };
+}
+
 /** A request document; what is left out takes its default. */
 export interface Request {
   start: Pose;
   goal: Pose;
   goals?: Pose[];
-  via?: unknown[];
+  via?: Via[];
   motion?: "forward" | "reverse";
   start_heading?: "exact" | "any";
   goal_heading?: "exact" | "bidirectional" | "any";

@@ -49,6 +49,9 @@ pub(super) fn point_segment(p: Point2, a: Point2, b: Point2) -> f64 {
 /// Euclidean distance between a convex polygon (counter-clockwise) and a square; 0 when they
 /// touch or overlap. Where they are apart, a corner of one of them is in a nearest pair.
 pub(super) fn polygon_square(corners: &[Point2], square: &Square) -> f64 {
+    if let Some(distance) = beside_edge(corners, square) {
+        return distance;
+    }
     if penetration(corners, square) >= 0.0 {
         return 0.0;
     }
@@ -57,6 +60,20 @@ pub(super) fn polygon_square(corners: &[Point2], square: &Square) -> f64 {
     });
     let theirs = |least: f64, &q: &Point2| squared_point_boundary(q, corners).min(least);
     square.corners().iter().fold(own, theirs).sqrt()
+}
+
+/// Distance to a square of which a corner is nearest and lies beside an edge, as most do.
+fn beside_edge(corners: &[Point2], square: &Square) -> Option<f64> {
+    let Square { center, half } = *square;
+    edges(corners).find_map(|(a, b)| {
+        let d = b - a;
+        let outward = Point2::new(d.y, -d.x);
+        let toward = Point2::new(half.copysign(outward.x), half.copysign(outward.y));
+        let ray = center - toward - a;
+        let (off, along) = (ray.dot(outward), ray.dot(d));
+        let is_beside = off > 0.0 && along >= 0.0 && along <= d.dot(d);
+        is_beside.then(|| off / d.norm())
+    })
 }
 
 /// Distance from a point outside to the boundary of a polygon.

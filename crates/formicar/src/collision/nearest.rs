@@ -80,7 +80,6 @@ impl ObstacleMap {
         let (low, high) = sweep.window();
         let resolution = self.frame().resolution_m();
         let half = 0.5 * resolution - body.inset;
-        let around = half * std::f64::consts::SQRT_2;
         let (cols, rows) = self.cells_between(low, high, reach);
         let near = rows.flat_map(|row| {
             let words = cols.start / 64..cols.end.div_ceil(64);
@@ -96,8 +95,9 @@ impl ObstacleMap {
         let mut least = reach;
         for (col, row) in near {
             let center = Point2::new(col as f64 + 0.5, row as f64 + 0.5) * resolution;
-            if sweep.at_least(center) - around < least {
-                least = least.min(sweep.distance(&Square { center, half }, least));
+            let square = Square { center, half };
+            if sweep.at_least(&square) < least {
+                least = least.min(sweep.distance(&square, least));
                 if least == 0.0 {
                     break;
                 }

@@ -158,11 +158,13 @@ impl<'a> Sweep<'a> {
         (self.middle - reach, self.middle + reach)
     }
 
-    /// No point of the region is nearer to `p` than this.
-    pub(super) fn at_least(&self, p: Point2) -> f64 {
-        let d = p - self.middle;
-        let dx = (d.dot(self.along).abs() - self.half.x).max(0.0);
-        let dy = (d.cross(self.along).abs() - self.half.y).max(0.0);
+    /// No point of the region is nearer to a square than this: the distance between the box and
+    /// one in its directions around the square, exact where a side of the box is nearest.
+    pub(super) fn at_least(&self, square: &Square) -> f64 {
+        let d = square.center - self.middle;
+        let around = square.half * (self.along.x.abs() + self.along.y.abs());
+        let dx = (d.dot(self.along).abs() - self.half.x - around).max(0.0);
+        let dy = (d.cross(self.along).abs() - self.half.y - around).max(0.0);
         (dx * dx + dy * dy).sqrt()
     }
 

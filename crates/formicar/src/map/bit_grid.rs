@@ -24,6 +24,25 @@ impl BitGrid {
         }
     }
 
+    /// The cells whose values meet a condition, values row by row.
+    pub(crate) fn of_values<T: Copy>(
+        n_cols: usize,
+        values: &[T],
+        is_in: impl Fn(T) -> bool,
+    ) -> Self {
+        let mut cells = Self::new(n_cols, values.len() / n_cols);
+        for (row, values) in values.chunks_exact(n_cols).enumerate() {
+            for (word, values) in cells.row_mut(row).iter_mut().zip(values.chunks(64)) {
+                let mut flags = [0; 64];
+                for (flag, &value) in flags.iter_mut().zip(values) {
+                    *flag = u8::from(is_in(value));
+                }
+                *word = packed(&flags);
+            }
+        }
+        cells
+    }
+
     /// Number of columns.
     pub fn n_cols(&self) -> usize {
         self.n_cols
@@ -160,6 +179,18 @@ impl Extend<Cell> for BitGrid {
     }
 }
 
+/// The bits of 64 flags, each 0 or 1, the first lowest.
+fn packed(flags: &[u8; 64]) -> u64 {
+    // The product brings the flag of byte i to bit 56 + i; no two of its terms meet.
+    const GATHER: u64 = 0x0102_0408_1020_4080;
+    let (eights, _) = flags.as_chunks();
+    let bytes = eights.iter().enumerate();
+    bytes.fold(0, |word, (i, &eight)| {
+        let byte = u64::from_le_bytes(eight).wrapping_mul(GATHER) >> 56;
+        word | byte << (8 * i)
+    })
+}
+
 /// The runs of columns whose bit is that of `wanted`, all ones or all zeros.
 fn runs(words: &[u64], n_cols: usize, wanted: u64) -> impl Iterator<Item = Range<usize>> {
     let mut end = 0;
@@ -204,6 +235,7 @@ pub(crate) fn set_bits(mut word: u64) -> impl Iterator<Item = u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     #[test]
     fn remembers_what_was_put_in() {
@@ -225,5 +257,21 @@ mod tests {
         assert_eq!(complement.count(), 3 * 130 - 3);
         set.unite(&complement);
         assert_eq!(set.runs(2).next(), Some(0..130));
+    }
+
+    proptest! {
+        #[test]
+        fn holds_the_cells_whose_values_meet_a_condition(
+            n_cols in 1_usize..200,
+            values in proptest::collection::vec(any::<i8>(), 0..600),
+        ) {
+            let values = &values[..values.len() / n_cols * n_cols];
+            let set = BitGrid::of_values(n_cols, values, |value| value < 0);
+            prop_assert_eq!(set.n_rows() * n_cols, values.len());
+            for (i, &value) in values.iter().enumerate() {
+                prop_assert_eq!(set.get(i % n_cols, i / n_cols), value < 0);
+            }
+            prop_assert_eq!(set.count(), set.iter().count());
+        }
     }
 }

@@ -117,14 +117,9 @@ impl DistanceField {
     /// cannot tell.
     pub fn within(&self, radius_cells: f64) -> Option<BitGrid> {
         let limit = self.square_within(radius_cells)?;
-        let mut cells = BitGrid::new(self.n_cols, self.n_rows);
-        for (row, squared) in self.rows().enumerate() {
-            for (word, squared) in cells.row_mut(row).iter_mut().zip(squared.chunks(64)) {
-                let bits = squared.iter().enumerate();
-                *word = bits.fold(0, |word, (i, &d)| word | u64::from(d <= limit) << i);
-            }
-        }
-        Some(cells)
+        Some(BitGrid::of_values(self.n_cols, &self.squared, |d| {
+            d <= limit
+        }))
     }
 
     /// The largest squared distance, as [`Self::squared`] tells it, that is within a radius; none

@@ -209,16 +209,7 @@ impl OccupancyGrid {
 
     /// The lethal cells as bits.
     pub fn lethal_cells(&self) -> BitGrid {
-        let mut bits = BitGrid::new(self.frame.n_cols(), self.frame.n_rows());
-        for (row, values) in self.values.chunks_exact(self.frame.n_cols()).enumerate() {
-            for (word, chunk) in bits.row_mut(row).iter_mut().zip(values.chunks(64)) {
-                *word = chunk
-                    .iter()
-                    .enumerate()
-                    .fold(0, |word, (i, &v)| word | u64::from(lethal(v)) << i);
-            }
-        }
-        bits
+        BitGrid::of_values(self.frame.n_cols(), &self.values, lethal)
     }
 
     /// Sets every cell that a polygon's inside or boundary touches; corners in world metres, in

@@ -63,6 +63,7 @@ impl Planner {
             obstacles: &self.obstacles,
             vehicle: &self.vehicle,
             max_rate_per_m2,
+            cost: &self.config.cost,
         };
         let first = match continuity.apply(&found.path) {
             Ok(path) => return Ok(Ok(Found { path, ..found })),

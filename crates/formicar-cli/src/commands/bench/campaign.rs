@@ -9,6 +9,7 @@ use formicar_lab::campaign::{
     Contender, Document, Limits, Place, PlannerEntry, RivalCommand, ScenariosEntry, Task, Text,
     VehicleChoice,
 };
+use formicar_lab::tuning::is_as_tuned;
 use std::ops::Range;
 use std::path::Path;
 use toml::{Spanned, Table, Value};
@@ -134,11 +135,15 @@ fn contender(entry: &PlannerEntry, text: &Text, folder: &Path) -> Result<Contend
                 words: words.clone(),
                 folder: folder.to_owned(),
             }),
+            tuned: Vec::new(),
         });
     }
     let base = config(entry.config.as_ref(), text, folder)?;
+    let mut tuned = tuned(entry, &base, folder)?;
     let mut config = checked(&base, &[], entry, text)?;
     for set in &entry.set {
+        let key = set.get_ref().split('=').next().unwrap_or_default().trim();
+        tuned.retain(|tuned| tuned != key);
         let merged = settings::merge((config, ""), &[set.get_ref().clone()], None);
         config = merged.map_err(|e| text.mistake(Some(set.span()), plain(&format!("{e:#}"))))?;
     }
@@ -147,7 +152,21 @@ fn contender(entry: &PlannerEntry, text: &Text, folder: &Path) -> Result<Contend
         planner: entry.planner,
         config,
         rival: None,
+        tuned,
     })
+}
+
+/// Keys of a configuration file that are as a tuning of the planner has found them.
+fn tuned(entry: &PlannerEntry, config: &Table, folder: &Path) -> Result<Vec<String>> {
+    let Some(Value::String(file)) = entry.config.as_ref().map(Spanned::get_ref) else {
+        return Ok(Vec::new());
+    };
+    let is_of_planner = config.get("planner").and_then(Value::as_str) == Some(entry.planner.name());
+    if !is_of_planner || !is_as_tuned(&files::read_text(&folder.join(file))?) {
+        return Ok(Vec::new());
+    }
+    let keys = settings::keys_of(config, "").into_iter();
+    Ok(keys.filter(|key| key != "planner").collect())
 }
 
 /// What `config` names or holds.

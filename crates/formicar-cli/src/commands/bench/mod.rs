@@ -26,6 +26,7 @@ use super::machine;
 use crate::failure::{Ending, Failure};
 use anyhow::{Context, Result};
 use formicar::map::format::write_atomically;
+use formicar::numeric::counted;
 use formicar_lab::campaign::{Job, Row};
 use results::Results;
 use runs::Runs;
@@ -83,7 +84,8 @@ fn into_folder(
         String::new()
     };
     let folder = folder.display();
-    writeln!(out, "{} runs{kept}: see {folder}", missing.len())?;
+    let n_runs = counted(missing.len(), "run");
+    writeln!(out, "{n_runs}{kept}: see {folder}")?;
     Ok(Ending::Done)
 }
 

@@ -102,11 +102,15 @@ pub(super) fn planners(contenders: &[Contender]) -> Vec<PlannerName> {
     ours.map(|c| c.planner).collect()
 }
 
-fn config(contender: &Contender) -> Result<ConfigRecord> {
+pub(super) fn config(contender: &Contender) -> Result<ConfigRecord> {
     if let Some(command) = &contender.rival {
         return rival::config(&contender.name, command);
     }
-    ConfigRecord::new(&contender.name, &settings::typed(&contender.config)?)
+    let record = ConfigRecord::new(&contender.name, &settings::typed(&contender.config)?)?;
+    Ok(ConfigRecord {
+        tuned: contender.tuned.clone(),
+        ..record
+    })
 }
 
 /// What runs stand on, each read once.

@@ -1,11 +1,12 @@
 //! Results beside goals and peers, as a page and as Markdown.
 
 use super::results::Results;
-use super::{BenchArgs, machine, variant};
+use super::{BenchArgs, machine, runs, variant};
+use crate::commands::results::config_facts;
 use crate::files;
 use anyhow::{Context, Result};
 use formicar::scenario::MotionMode;
-use formicar_lab::campaign::{Job, Place};
+use formicar_lab::campaign::{ConfigRecord, Job, Place, parameter_section};
 use formicar_lab::report::{Fact, Page, markdown, page};
 use formicar_lab::standing::{Peer, Standing};
 use std::collections::BTreeSet;
@@ -28,7 +29,11 @@ pub(super) fn files(
     standing
         .runs
         .sort_by_key(|run| place(&run.planner).unwrap_or(names.len()));
-    let report = standing.report();
+    let mut report = standing.report();
+    let text = markdown(&report);
+    let configs = variant::all(args)?;
+    let configs: Vec<ConfigRecord> = configs.iter().map(runs::config).collect::<Result<_>>()?;
+    report.sections.extend(parameter_section(&configs));
     let facts = machine::facts();
     let facts: Vec<_> = facts
         .iter()
@@ -37,12 +42,9 @@ pub(super) fn files(
     let whole = Page {
         report: &report,
         facts: &facts,
-        configs: &[],
+        configs: &config_facts(&configs),
     };
-    Ok([
-        ("standing.md", markdown(&report)),
-        ("index.html", page(&whole)),
-    ])
+    Ok([("standing.md", text), ("index.html", page(&whole))])
 }
 
 /// The peers of all tables beside the scenarios; none without any.

@@ -20,6 +20,7 @@ pub(super) fn run(
     let csv = csv_beside(path)?;
     let campaign = runs.campaign()?;
     let mut store = Store::open(path, &campaign, env!("CARGO_PKG_VERSION"))?;
+    store.note_runs_at_once(n_at_once)?;
     let missing = store.missing()?;
     fill(&mut store, &campaign, &missing, n_at_once)?;
     let stored = store.stored()?;

@@ -54,5 +54,6 @@ fn contender(name: &str, planner: PlannerName, sets: &[String]) -> Result<Conten
         planner,
         config: settings::merge(blank, sets, Some(planner))?,
         rival: None,
+        tuned: Vec::new(),
     })
 }

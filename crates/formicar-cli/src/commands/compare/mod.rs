@@ -47,6 +47,7 @@ pub(crate) fn run(args: &CompareArgs, out: &mut impl Write) -> Result<Ending, Fa
 
 /// The runs of two files, under their names or, where these are the same, their paths.
 fn named_sides(a: &Path, b: &Path) -> Result<[Side; 2]> {
+    results::check_once(&[a, b])?;
     let is_same = results::name(a) == results::name(b);
     let side = |path: &Path| -> Result<Side> {
         let name = if is_same {

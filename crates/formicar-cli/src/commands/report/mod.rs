@@ -4,12 +4,14 @@ mod pictures;
 
 use super::results;
 use crate::failure::{Ending, Failure};
-use anyhow::Result;
+use anyhow::{Result, bail};
 use clap::{Args, ValueHint};
 use formicar::numeric::counted;
-use formicar_lab::campaign::{Record, Stored, ompl_logs, report, to_csv};
+use formicar_lab::campaign::{
+    ConfigRecord, Record, Stored, ompl_logs, parameter_section, report, to_csv,
+};
 use formicar_lab::report::{Fact, latex, markdown, numbers_csv};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -29,6 +31,7 @@ pub(crate) struct ReportArgs {
 
 /// Carries out `report`.
 pub(crate) fn run(args: &ReportArgs, out: &mut impl Write) -> Result<Ending, Failure> {
+    results::check_once(&args.stores)?;
     let mut stores = Vec::new();
     for path in &args.stores {
         let is_it = |other: &&PathBuf| results::name(other) == results::name(path);
@@ -38,9 +41,12 @@ pub(crate) fn run(args: &ReportArgs, out: &mut impl Write) -> Result<Ending, Fai
         };
         stores.push((name, results::read(path)?));
     }
+    check_records(&stores)?;
     tell_apart(&mut stores);
     let facts = facts(&stores);
-    let configs = configs(&stores);
+    let configs: Vec<ConfigRecord> = stores.iter().flat_map(|(_, s)| s.configs.clone()).collect();
+    let parameters = parameter_section(&configs);
+    let configs = results::config_facts(&configs);
     let title: Vec<&str> = stores
         .iter()
         .map(|(_, store)| store.name.as_str())
@@ -50,6 +56,9 @@ pub(crate) fn run(args: &ReportArgs, out: &mut impl Write) -> Result<Ending, Fai
     let records: Vec<Record> = stores.into_iter().flat_map(|(_, s)| s.records).collect();
     let mut report = report(&title, &records)?;
     report.sections.extend(paths);
+    // Parameters are too long for a terminal.
+    let told = markdown(&report);
+    report.sections.extend(parameters);
     let mut files = results::report_files(&report, &facts, &configs);
     files.push(("tables.tex".to_owned(), latex(&report)));
     files.push(("numbers.csv".to_owned(), numbers_csv(&report)?));
@@ -57,11 +66,35 @@ pub(crate) fn run(args: &ReportArgs, out: &mut impl Write) -> Result<Ending, Fai
     let logs = ompl_logs(&records).into_iter();
     files.extend(logs.map(|log| (log_name(&log.name), log.to_text())));
     results::write_all(&args.out, &files)?;
-    write!(out, "{}", markdown(&report))?;
+    write!(out, "{told}")?;
     let page = args.out.join("index.html");
     let n_runs = counted(records.len(), "run");
     writeln!(out, "\n{n_runs}: see {}", page.display())?;
     Ok(Ending::Done)
+}
+
+/// Refuses files that hold the same run, measured to the same digit: a store and its own table.
+fn check_records(stores: &[(String, Stored)]) -> Result<()> {
+    let mut known: BTreeMap<[&str; 3], &str> = BTreeMap::new();
+    for (file, store) in stores {
+        for record in &store.records {
+            let measured = ["run", "total_s", "query_s"].map(|column| record.get(column));
+            if measured.iter().any(|value| value.is_empty()) {
+                continue;
+            }
+            let other = *known.entry(measured).or_insert(file);
+            if other != file {
+                bail!(
+                    "{file} and {other} hold the same run of {} on {} with seed {}, which would \
+                     count twice; hint: name one of them",
+                    record.get("planner"),
+                    record.get("scenario"),
+                    record.get("seed")
+                );
+            }
+        }
+    }
+    Ok(())
 }
 
 /// A file name of a log's name, which may hold what file names may not.
@@ -115,6 +148,10 @@ fn facts(stores: &[(String, Stored)]) -> Vec<Fact> {
                 facts.push(Fact::new(name, values.join("; ")));
             }
         }
+        let at_once: Vec<String> = store.n_at_once.iter().map(u32::to_string).collect();
+        if !at_once.is_empty() {
+            facts.push(Fact::new("Runs at once", at_once.join("; ")));
+        }
         facts.extend(hashes(&store.records));
         if !store.text.is_empty() {
             facts.push(Fact::new("Campaign", store.text.clone()));
@@ -137,14 +174,4 @@ fn hashes(records: &[Record]) -> Vec<Fact> {
         }
     }
     facts
-}
-
-fn configs(stores: &[(String, Stored)]) -> Vec<Fact> {
-    let configs = stores.iter().flat_map(|(_, store)| &store.configs);
-    let fact = |config: &formicar_lab::campaign::ConfigRecord| {
-        let value = serde_json::from_str::<serde_json::Value>(&config.json);
-        let pretty = value.map_or_else(|_| config.json.clone(), |value| format!("{value:#}"));
-        Fact::new(&config.name, pretty)
-    };
-    configs.map(fact).collect()
 }

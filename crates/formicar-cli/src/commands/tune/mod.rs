@@ -14,7 +14,9 @@ use formicar::numeric::Seed;
 use formicar::tuning::BeeColonyConfig;
 use formicar::vehicle::Motion;
 use formicar_lab::report::{Fact, Page, markdown, page};
-use formicar_lab::tuning::{Asked, Objective, Tuning, TuningSpace, TuningState, Verdict, split};
+use formicar_lab::tuning::{
+    Asked, Objective, Tuning, TuningSpace, TuningState, Verdict, split, tuned_text,
+};
 use indicatif::ProgressBar;
 use std::fs;
 use std::io::Write;
@@ -137,7 +139,7 @@ fn write_all(folder: &Path, verdict: &Verdict) -> Result<()> {
         configs: &verdict.configs,
     });
     for (name, text) in [
-        ("tuned.toml", toml::to_string(&verdict.document)?),
+        ("tuned.toml", tuned_text(&verdict.document)?),
         ("convergence.svg", verdict.convergence_svg.clone()),
         ("index.html", page),
         ("summary.md", markdown(&verdict.report)),

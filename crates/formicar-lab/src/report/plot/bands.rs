@@ -9,6 +9,8 @@ const WIDTH_PX: f64 = 1000.0;
 const HEIGHT_PX: f64 = 220.0;
 const LEFT_PX: f64 = 66.0;
 const GAP_PX: f64 = 34.0;
+/// Courses shorter than this are drawn as a point, since a line could not be seen.
+const MIN_LINE_PX: f64 = 12.0;
 /// Places along x at which the runs are compared.
 const N_PLACES: usize = 240;
 
@@ -50,6 +52,9 @@ impl Course {
 fn places([first, last]: [f64; 2], scale: ScaleKind) -> Vec<f64> {
     if !first.is_finite() || !last.is_finite() {
         return Vec::new();
+    }
+    if first == last {
+        return vec![first];
     }
     let is_log = scale == ScaleKind::Log && first > 0.0;
     let at = |i: usize| {
@@ -146,6 +151,11 @@ impl BandPanel {
         x.draw_below(canvas, [top, bottom], &self.x);
         y.draw_left(canvas, [left, right], name);
         let at = |point: &[f64; 4], which: usize| [x.px(point[0]), y.px(point[which])];
+        let is_point = |course: &Course| {
+            let ends = [course.points.first(), course.points.last()];
+            let [first, last] = ends.map(|end| end.map_or(0.0, |point| x.px(point[0])));
+            last - first < MIN_LINE_PX
+        };
         for (i, course) in self.courses.iter().enumerate() {
             let low = course.points.iter().map(|point| at(point, 1));
             let high = course.points.iter().rev().map(|point| at(point, 3));
@@ -154,9 +164,26 @@ impl BandPanel {
         }
         for (i, course) in self.courses.iter().enumerate() {
             let line: Vec<[f64; 2]> = course.points.iter().map(|point| at(point, 2)).collect();
-            canvas.polyline(&line, pen(i));
+            match line.last() {
+                Some(&median) if is_point(course) => {
+                    let ends = course.points.last().map(|end| [at(end, 1), at(end, 3)]);
+                    draw_point(canvas, i, (median, ends.unwrap_or([median; 2])));
+                }
+                _ => canvas.polyline(&line, pen(i)),
+            }
         }
     }
+}
+
+/// A course that is too short for a line: a dot at its end, the quartiles as a bar.
+fn draw_point(canvas: &mut Canvas, i: usize, (median, ends): ([f64; 2], [[f64; 2]; 2])) {
+    let (color, _) = look(i);
+    let thin = Pen::new(color, 1.4);
+    canvas.line(ends[0], ends[1], thin);
+    for [x, y] in ends {
+        canvas.line([x - 4.0, y], [x + 4.0, y], thin);
+    }
+    canvas.dot(median, 4.5, (color, thin));
 }
 
 fn pen(i: usize) -> Pen<'static> {
@@ -191,6 +218,23 @@ mod tests {
                 .points
                 .is_empty()
         );
+    }
+
+    #[test]
+    fn a_course_of_one_place_is_a_point_with_its_quartiles() {
+        let runs = [vec![[1.0, 2.0]], vec![[1.0, 4.0]], vec![[1.0, 3.0]]];
+        let course = Course::of_runs("ants", &runs, ScaleKind::Linear);
+        assert_eq!(course.points, [[1.0, 2.5, 3.0, 3.5]]);
+        let bands = Bands {
+            panels: vec![BandPanel {
+                courses: vec![course],
+                ..BandPanel::default()
+            }],
+            ..Bands::default()
+        };
+        let svg = bands.to_svg();
+        assert_eq!(svg.matches("<circle").count(), 1, "{svg}");
+        assert!(!svg.contains("NaN"), "{svg}");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 /** Start and goal with their heading arrows, and what of them lies under a finger. */
 
-import type { Pose, Request, VehicleMessage } from "../protocol";
+import type { Pose, Request, VehicleMessage, Via } from "../protocol";
 import type { Point, View } from "./camera";
 import { drawCar } from "./car";
 import { label } from "./marks";
@@ -19,6 +19,7 @@ const ENDS: readonly End[] = ["goal", "start"];
 const MIN_ARROW_PX = 40;
 const BEYOND_FRONT_PX = 16;
 const GRIP_PX = 6.5;
+const VIA_PX = 7;
 
 export function drawEnds(
   sheet: Sheet,
@@ -27,6 +28,7 @@ export function drawEnds(
   held: Grip | null,
 ): void {
   for (const goal of request.goals ?? []) drawDot(sheet, goal, "goal", false);
+  for (const [i, via] of (request.via ?? []).entries()) drawVia(sheet, via, `${i + 1}`);
   for (const end of ENDS) {
     const color = end === "start" ? sheet.colors.start : sheet.colors.goal;
     const pose = request[end];
@@ -136,6 +138,28 @@ function drawArrow(
   ctx.arc(0, 0, GRIP_PX + 7, 0, 2 * Math.PI);
   sheet.pen(look.color, 1.5);
   ctx.stroke();
+}
+
+/** A diamond with its place in the order, and a line ahead where the heading is asked for. */
+function drawVia(sheet: Sheet, { at, heading }: Via, place: string): void {
+  const { view, colors } = sheet;
+  const ctx = sheet.inPixels();
+  const [x, y] = view.toPx(at[0], at[1]);
+  ctx.beginPath();
+  ctx.moveTo(x, y - VIA_PX);
+  ctx.lineTo(x + VIA_PX, y);
+  ctx.lineTo(x, y + VIA_PX);
+  ctx.lineTo(x - VIA_PX, y);
+  ctx.closePath();
+  ctx.fillStyle = colors.page;
+  ctx.fill();
+  if (heading !== undefined) {
+    ctx.moveTo(x, y);
+    ctx.lineTo(x + 3 * VIA_PX * Math.cos(heading), y - 3 * VIA_PX * Math.sin(heading));
+  }
+  sheet.pen(colors.goal, 2.2);
+  ctx.stroke();
+  if (view.shows(at[0], at[1])) label(sheet, place, [x, y], colors.goal, VIA_PX + 3);
 }
 
 /** Filled where the vehicle stands, a ring where it should go. */

@@ -47,14 +47,8 @@ impl Numbered {
 
     /// The cells that have a cost.
     fn reached(costs: &[u32], n_cols: usize) -> Self {
-        let mut cells = BitGrid::new(n_cols, costs.len() / n_cols.max(1));
-        for (row, costs) in costs.chunks_exact(n_cols.max(1)).enumerate() {
-            for (word, costs) in cells.row_mut(row).iter_mut().zip(costs.chunks(64)) {
-                let bits = costs.iter().enumerate();
-                *word = bits.fold(0, |word, (i, &c)| word | u64::from(c != u32::MAX) << i);
-            }
-        }
-        Self::new(cells)
+        let is_reached = |cost| cost != u32::MAX;
+        Self::new(BitGrid::of_values(n_cols, costs, is_reached))
     }
 
     pub(super) fn len(&self) -> usize {

@@ -5,14 +5,16 @@
 //! lengths is sought with which the chain meets the second station exactly (`fit`). A part that
 //! cannot be done, or touches something, is tried with more of the path before it. Where the
 //! vehicle stands its wheels may turn, so that curvatures are free there, and a part that reaches
-//! over a change of gear may move it.
+//! over a change of gear may move it. Where the shortest part to a station comes near obstacles,
+//! longer ones are looked at too, and the cheapest is taken.
 
 mod chain;
 mod fit;
 mod stations;
 
 use crate::collision::{Body, ClothoidDrive, MIN_CLEARANCE_M, ObstacleMap};
-use crate::geometry::Pose2;
+use crate::geometry::{Arc, Pose2};
+use crate::objective::{DriveCost, DriveMeter};
 use crate::path::{CurvePath, CurveSegment, Direction};
 use crate::vehicle::Vehicle;
 use chain::Chain;
@@ -35,6 +37,8 @@ pub struct Continuity<'a> {
     pub vehicle: &'a Vehicle,
     /// Fastest change of the curvature per driven metre, 1/m^2, above 0.
     pub max_rate_per_m2: f64,
+    /// What tells cheap parts from dear ones.
+    pub cost: &'a DriveCost,
 }
 
 /// Where a path cannot be made continuous.
@@ -61,6 +65,10 @@ pub struct NoTransition {
 struct Way {
     from: usize,
     chain: Chain,
+    /// What this part costs beyond its length, metres.
+    nearness_m: f64,
+    /// What the path costs up to here, metres.
+    cost_m: f64,
 }
 
 impl Continuity<'_> {
@@ -79,15 +87,20 @@ impl Continuity<'_> {
         let mut ways: Vec<Option<Way>> = vec![None; stations.len()];
         let mut touches = false;
         for to in 1..stations.len() {
-            let reached = |from: &usize| *from == 0 || ways[*from].is_some();
-            let mut froms = (to.saturating_sub(MAX_SPAN)..to).rev().filter(reached);
-            ways[to] = froms.find_map(|from| {
+            let froms = (to.saturating_sub(MAX_SPAN)..to).rev();
+            let free = froms.filter_map(|from| {
+                let before_m = match &ways[from] {
+                    Some(way) => way.cost_m,
+                    None if from == 0 => 0.0,
+                    None => return None,
+                };
                 let ends = [&stations[from], &stations[to]];
                 let chain = self.between(&segments, ends)?;
                 let is_free = self.is_free(&body, &chain, ends[0].pose);
                 touches |= !is_free;
-                is_free.then_some(Way { from, chain })
+                is_free.then(|| self.way((from, before_m), chain, (&body, ends[0].pose)))
             });
+            ways[to] = cheapest(free);
         }
         assembled(&stations, &ways).ok_or_else(|| self.failure(&stations, &ways, touches))
     }
@@ -105,18 +118,53 @@ impl Continuity<'_> {
         fit(&mut chain, target, self.limits()).then_some(chain)
     }
 
-    /// Whether the body touches nothing along a chain.
-    fn is_free(&self, body: &Body, chain: &Chain, start: Pose2) -> bool {
-        let frame = self.obstacles.frame();
+    /// A way along a chain, from a station to which the path costs so much.
+    fn way(
+        &self,
+        (from, before_m): (usize, f64),
+        chain: Chain,
+        (body, start): (&Body, Pose2),
+    ) -> Way {
+        let radius_m = self.vehicle.min_turning_radius_m();
+        let meter = DriveMeter::new(self.obstacles, body, self.cost, radius_m);
+        let (mut length_m, mut nearness_m) = (0.0, 0.0);
+        for drive in self.drives(&chain, start) {
+            length_m += drive.signed_length_m.abs();
+            for part in drive.arcs(body, TOLERANCES_M[0]) {
+                let arc = Arc::new(part.drive.curvature_per_m, part.drive.signed_length_m);
+                nearness_m += meter.around_m(part.drive.start, arc, f64::INFINITY);
+            }
+        }
+        Way {
+            from,
+            chain,
+            nearness_m,
+            cost_m: before_m + length_m + nearness_m,
+        }
+    }
+
+    /// The drives along a chain, in grid coordinates.
+    fn drives<'c>(
+        &self,
+        chain: &'c Chain,
+        start: Pose2,
+    ) -> impl Iterator<Item = ClothoidDrive> + use<'c> {
+        let frame = *self.obstacles.frame();
         let poses = chain.poses(start);
-        chain.ramps.iter().zip(poses).all(|(ramp, start)| {
+        chain.ramps.iter().zip(poses).map(move |(ramp, start)| {
             let [from, to] = chain.curvatures(ramp);
-            let drive = ClothoidDrive {
+            ClothoidDrive {
                 start: frame.to_grid(start),
                 curvature_per_m: from,
                 curvature_rate_per_m2: (to - from) / ramp.length_m,
                 signed_length_m: ramp.sign * ramp.length_m,
-            };
+            }
+        })
+    }
+
+    /// Whether the body touches nothing along a chain.
+    fn is_free(&self, body: &Body, chain: &Chain, start: Pose2) -> bool {
+        self.drives(chain, start).all(|drive| {
             let stays = |tolerance_m: f64| {
                 drive.arcs(body, tolerance_m).iter().all(|arc| {
                     let enough_m = arc.deviation_m + 2.0 * MIN_CLEARANCE_M;
@@ -139,6 +187,21 @@ impl Continuity<'_> {
             touches,
         }
     }
+}
+
+/// The cheapest of some ways; the first one that is far from everything ends the search.
+fn cheapest(ways: impl Iterator<Item = Way>) -> Option<Way> {
+    let mut best: Option<Way> = None;
+    for way in ways {
+        let is_clear = way.nearness_m == 0.0;
+        if best.as_ref().is_none_or(|best| way.cost_m < best.cost_m) {
+            best = Some(way);
+        }
+        if is_clear {
+            break;
+        }
+    }
+    best
 }
 
 /// The path along the ways that lead to the last station.
