@@ -137,9 +137,14 @@ impl<'a> GuideField<'a> {
 
     /// Raises the toll of a cell; the cells that are rough for the first time.
     fn charge(&mut self, cell: usize, toll: u32) -> Vec<usize> {
-        let n_cells = self.moves.as_slice().len();
-        self.tolls.tolls.resize(n_cells, 0);
-        self.tolls.rough.resize(n_cells.div_ceil(64), 0);
+        if self.tolls.tolls.is_empty() {
+            // Fresh memory: what no toll touches costs nothing.
+            let n_cells = self.moves.as_slice().len();
+            self.tolls = Tolls {
+                tolls: vec![0; n_cells],
+                rough: vec![0; n_cells.div_ceil(64)],
+            };
+        }
         self.tolls.tolls[cell] = self.tolls.tolls[cell].saturating_add(toll).min(MAX_TOLL);
         let around = self.neighbors(cell).map(|(to, _)| to).chain([cell]);
         let rough: Vec<usize> = around.filter(|&cell| !self.tolls.is_rough(cell)).collect();

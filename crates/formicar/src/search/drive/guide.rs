@@ -1,6 +1,6 @@
 //! What is still to be driven, estimated from two sides; the larger counts.
 
-use super::{DriveProblem, Inflation};
+use super::{DriveProblem, Inflation, one_way};
 use crate::geometry::{Point2, Pose2, dubins, reeds_shepp};
 use crate::map::Cell;
 use crate::progress::{Limits, Status};
@@ -59,6 +59,8 @@ impl<'a> Guide<'a> {
             stride,
             resolution_m: f64::from(stride) * map_m,
         };
+        let size = (moves.n_cols(), moves.n_rows());
+        guide.charge(&one_way::tolls(problem, guide.resolution_m, size), limits)?;
         let reaches = guide.measure(start, limits)?.is_some();
         Ok(reaches.then_some(guide))
     }
@@ -143,7 +145,14 @@ impl<'a> Guide<'a> {
     ) -> Result<(), Status> {
         let moves = self.field.moves();
         let tolls = tolls(self.resolution_m, (moves.n_cols(), moves.n_rows()));
-        match self.field.add_tolls(&tolls, &mut limits.aside()) {
+        self.charge(&tolls, limits)
+    }
+
+    fn charge(&mut self, tolls: &[(Cell, u32)], limits: &mut Limits) -> Result<(), Status> {
+        if tolls.is_empty() {
+            return Ok(());
+        }
+        match self.field.add_tolls(tolls, &mut limits.aside()) {
             Err(SearchError::Ended { status }) => Err(status),
             _ => Ok(()),
         }

@@ -6,6 +6,7 @@ mod ground;
 mod ground_cells;
 mod guide;
 mod motions;
+mod one_way;
 mod price;
 mod problem;
 mod shots;
