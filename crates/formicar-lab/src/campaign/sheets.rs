@@ -40,10 +40,10 @@ struct Sheet<'a> {
 /// The parameters of all configurations, those of one planner in one table; none where no
 /// configuration is known.
 pub fn parameter_section(configs: &[ConfigRecord]) -> Option<Section> {
-    let (mut sheets, rivals) = sheets(configs);
     if configs.is_empty() {
         return None;
     }
+    let (mut sheets, rivals) = sheets(configs);
     let mut blocks = vec![Block::Text(ABOUT.to_owned())];
     if !rivals.is_empty() {
         let names = rivals.join("`, `");

@@ -1,11 +1,10 @@
 //! The judge's word on a foreign path, for a request.
 
 use formicar::collision::ObstacleMap;
-use formicar::geometry::{Pose2, angle_difference};
 use formicar::path::{CurvePath, Direction};
-use formicar::scenario::{Request, StartHeading};
+use formicar::scenario::Request;
 use formicar::validation::{
-    FOREIGN_CURVATURE_SLACK, Report, Samples, Violation, ViolationKind, judge,
+    FOREIGN_CURVATURE_SLACK, Report, Samples, Violation, ViolationKind, judge, missed_start,
 };
 use formicar::vehicle::{Motion, Vehicle};
 
@@ -74,62 +73,31 @@ impl Verdict {
 /// Longest path that is measured, in times the width and height of the map.
 const MAX_LAPS: f64 = 100.0;
 
-/// The judge's findings without those that rounding and sampling may cause. It is asked from where
-/// the path begins; how far that is off the start is held against the tolerance of samples here.
+/// The judge's findings without those that rounding and sampling may cause.
 fn findings(
     (obstacles, vehicle): (&ObstacleMap, &Vehicle),
     request: &Request,
     path: &CurvePath,
 ) -> Report {
-    let from_there = Request {
-        start: path.start(),
-        ..request.clone()
-    };
-    let mut report = judge(obstacles, vehicle, &from_there, path);
-    report.violations.retain(|violation| {
-        let most = violation.limit * (1.0 + FOREIGN_CURVATURE_SLACK);
-        violation.kind != ViolationKind::Curvature || violation.amount > most
+    let mut report = judge(obstacles, vehicle, request, path);
+    report.violations.retain(|violation| match violation.kind {
+        ViolationKind::Curvature => {
+            violation.amount > violation.limit * (1.0 + FOREIGN_CURVATURE_SLACK)
+        }
+        kind => kind != ViolationKind::Start,
     });
-    let missed = misses(vehicle, request, path.start());
+    let missed = missed_start(vehicle, request, path.start(), START_TOLERANCE);
     report.violations.splice(0..0, missed);
     report.valid = report.violations.is_empty();
     report
 }
 
-/// What a first pose misses of the start: the place, and the heading where that is asked for.
-fn misses(vehicle: &Vehicle, request: &Request, first: Pose2) -> Vec<Violation> {
-    let is_turned = vehicle.motion() == Motion::Car && request.start_heading == StartHeading::Exact;
-    let turn_rad = angle_difference(first.heading, request.start.heading).abs();
-    let off_m = first.position().distance(request.start.position());
-    let ends = [
-        ("start", off_m, "m"),
-        (
-            "start heading",
-            if is_turned { turn_rad } else { 0.0 },
-            "rad",
-        ),
-    ];
-    let missed = ends
-        .into_iter()
-        .filter(|(_, amount, _)| *amount > START_TOLERANCE);
-    let violation = |(what, amount, unit)| Violation {
-        kind: ViolationKind::Start,
-        s_m: 0.0,
-        pose: first,
-        amount,
-        limit: START_TOLERANCE,
-        message: format!(
-            "the path misses the {what} by {amount:.6} {unit}; the limit is {START_TOLERANCE} {unit}"
-        ),
-    };
-    missed.map(violation).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use formicar::geometry::Point2;
+    use formicar::geometry::{Point2, Pose2};
     use formicar::map::OccupancyGrid;
+    use formicar::scenario::StartHeading;
 
     fn ground() -> (ObstacleMap, Vehicle, Request) {
         let rows = ["..........................................."; 12];

@@ -14,32 +14,46 @@ pub(super) struct Ends {
 }
 
 pub(super) fn check(vehicle: &Vehicle, request: &Request, path: &CurvePath) -> Ends {
-    let (start, end) = (path.start(), path.end());
-    let (start_error_m, start_error_rad) = start_error(vehicle, request, start);
+    let end = path.end();
     let reached = request.reached_goal(vehicle.motion(), end);
-    let at_start = Place {
-        kind: ViolationKind::Start,
-        s_m: 0.0,
-        pose: start,
-    };
     let at_goal = Place {
         kind: ViolationKind::Goal,
         s_m: path.length_m(),
         pose: end,
     };
     let tolerance = request.goal_tolerance;
-    let violations = [
-        at_start.miss("start", start_error_m, JOINT_TOLERANCE, "m"),
-        at_start.miss("start heading", start_error_rad, JOINT_TOLERANCE, "rad"),
+    let at_end = [
         at_goal.miss("goal", reached.error_m, tolerance.xy_m, "m"),
         at_goal.miss("goal heading", reached.error_rad, tolerance.yaw_rad, "rad"),
         forbidden_gear(request, path),
     ];
-    let violations = violations.into_iter().flatten().collect();
+    let mut violations = missed_start(vehicle, request, path.start(), JOINT_TOLERANCE);
+    violations.extend(at_end.into_iter().flatten());
     Ends {
         reached,
         violations,
     }
+}
+
+/// How a first pose misses the start of a request by more than a tolerance, metres and radians: the
+/// place, and the heading where that is asked for.
+pub fn missed_start(
+    vehicle: &Vehicle,
+    request: &Request,
+    first: Pose2,
+    tolerance: f64,
+) -> Vec<Violation> {
+    let (error_m, error_rad) = start_error(vehicle, request, first);
+    let at_start = Place {
+        kind: ViolationKind::Start,
+        s_m: 0.0,
+        pose: first,
+    };
+    let missed = [
+        at_start.miss("start", error_m, tolerance, "m"),
+        at_start.miss("start heading", error_rad, tolerance, "rad"),
+    ];
+    missed.into_iter().flatten().collect()
 }
 
 /// An end of the path.

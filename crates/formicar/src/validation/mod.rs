@@ -19,6 +19,7 @@ mod swept;
 mod tangents;
 mod via;
 
+pub use ends::missed_start;
 pub use foreign::{FOREIGN_CURVATURE_SLACK, path_through_points, path_through_poses};
 pub use judge::{judge, judge_path};
 pub use report::{Certificate, Report, Violation, ViolationKind};

@@ -28,12 +28,12 @@ pub(super) fn tolls(
         return Vec::new();
     }
     let radius_m = problem.ground().radius_m();
-    let is_one_way = |poses: &[Pose2], n_places| poses.len() == n_places;
+    let are_fixed = |poses: &[Pose2], n_places| poses.len() == n_places;
     let mut bars = Vec::new();
-    if is_one_way(problem.goals(), problem.n_goals()) {
+    if are_fixed(problem.goals(), problem.n_goals()) {
         bars.extend(problem.goals().iter().map(|&goal| (goal, resolution_m)));
     }
-    if is_one_way(problem.starts(), 1) {
+    if are_fixed(problem.starts(), 1) {
         bars.push((problem.starts()[0], -resolution_m));
     }
     let on_map = |p: Point2| {
@@ -47,8 +47,8 @@ pub(super) fn tolls(
         .filter_map(on_map)
         .collect();
     let toll = TOLL_RADII * radius_m / resolution_m * f64::from(STRAIGHT_COST);
-    let cells = cells.into_iter();
     cells
+        .into_iter()
         .map(|(row, col)| (Cell::new(col, row), toll as u32))
         .collect()
 }

@@ -12,7 +12,7 @@ mod chain;
 mod fit;
 mod stations;
 
-use crate::collision::{Body, ClothoidDrive, MIN_CLEARANCE_M, ObstacleMap};
+use crate::collision::{Body, ClothoidDrive, MIN_CLEARANCE_M, NearbyDrive, ObstacleMap};
 use crate::geometry::{Arc, Pose2};
 use crate::objective::{DriveCost, DriveMeter};
 use crate::path::{CurvePath, CurveSegment, Direction};
@@ -65,7 +65,7 @@ pub struct NoTransition {
 struct Way {
     from: usize,
     chain: Chain,
-    /// What this part costs beyond its length, metres.
+    /// What its surroundings add to the cost of this part, metres.
     nearness_m: f64,
     /// What the path costs up to here, metres.
     cost_m: f64,
@@ -98,7 +98,15 @@ impl Continuity<'_> {
                 let chain = self.between(&segments, ends)?;
                 let is_free = self.is_free(&body, &chain, ends[0].pose);
                 touches |= !is_free;
-                is_free.then(|| self.way((from, before_m), chain, (&body, ends[0].pose)))
+                is_free.then(|| {
+                    let nearness_m = self.nearness_m(&body, &chain, ends[0].pose);
+                    Way {
+                        from,
+                        nearness_m,
+                        cost_m: before_m + chain.length_m() + nearness_m,
+                        chain,
+                    }
+                })
             });
             ways[to] = cheapest(free);
         }
@@ -118,29 +126,17 @@ impl Continuity<'_> {
         fit(&mut chain, target, self.limits()).then_some(chain)
     }
 
-    /// A way along a chain, from a station to which the path costs so much.
-    fn way(
-        &self,
-        (from, before_m): (usize, f64),
-        chain: Chain,
-        (body, start): (&Body, Pose2),
-    ) -> Way {
+    /// What the surroundings of a chain add to its cost, metres.
+    fn nearness_m(&self, body: &Body, chain: &Chain, start: Pose2) -> f64 {
         let radius_m = self.vehicle.min_turning_radius_m();
         let meter = DriveMeter::new(self.obstacles, body, self.cost, radius_m);
-        let (mut length_m, mut nearness_m) = (0.0, 0.0);
-        for drive in self.drives(&chain, start) {
-            length_m += drive.signed_length_m.abs();
-            for part in drive.arcs(body, TOLERANCES_M[0]) {
-                let arc = Arc::new(part.drive.curvature_per_m, part.drive.signed_length_m);
-                nearness_m += meter.around_m(part.drive.start, arc, f64::INFINITY);
-            }
-        }
-        Way {
-            from,
-            chain,
-            nearness_m,
-            cost_m: before_m + length_m + nearness_m,
-        }
+        let drives = self.drives(chain, start);
+        let parts = drives.flat_map(|drive| drive.arcs(body, TOLERANCES_M[0]));
+        let around_m = |part: NearbyDrive| {
+            let arc = Arc::new(part.drive.curvature_per_m, part.drive.signed_length_m);
+            meter.around_m(part.drive.start, arc, f64::INFINITY)
+        };
+        parts.map(around_m).sum()
     }
 
     /// The drives along a chain, in grid coordinates.
