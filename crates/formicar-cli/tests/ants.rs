@@ -1,14 +1,10 @@
 //! `plan --ants`: pictures and films of colonies.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail where it likes")]
-
-mod common;
-
-use common::Room;
+use crate::common::{Room, Run};
 use std::fs;
 
 /// A small colony for a point through the door of the room, with more flags.
-fn few_ants(room: &Room, more: &[&str]) -> common::Run {
+fn few_ants(room: &Room, more: &[&str]) -> Run {
     let few = [
         "--planner",
         "lei2020",

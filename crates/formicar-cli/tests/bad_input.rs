@@ -1,8 +1,6 @@
 //! Bad input: refused with value, limit and hint, exit code 2, no panic and no partial file.
 
-mod common;
-
-use common::Room;
+use crate::common::Room;
 
 /// A YAML for the room's image with one line changed.
 fn yaml_with(room: &Room, from: &str, to: &str) {

@@ -1,9 +1,6 @@
 //! `bench`: tables, what survives a kill, answers, refusals.
-#![allow(clippy::unwrap_used, reason = "a test may fail where it likes")]
 
-mod common;
-
-use common::{Room, Run, Table};
+use crate::common::{Room, Run, Table};
 use std::collections::BTreeSet;
 use std::fs;
 

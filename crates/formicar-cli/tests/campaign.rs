@@ -1,9 +1,6 @@
 //! Campaigns: what a kill leaves, what is refused, and what `compare` and `report` make of stores.
-#![allow(clippy::unwrap_used, reason = "a test may fail where it likes")]
 
-mod common;
-
-use common::{Room, Run, Table};
+use crate::common::{Room, Run, Table};
 use formicar_lab::campaign::Stored;
 use std::fs;
 use std::process::{Command, Stdio};

@@ -1,8 +1,6 @@
 //! `check`: the judge on answers and on foreign paths.
 
-mod common;
-
-use common::Room;
+use crate::common::Room;
 use serde_json::{Value, json};
 
 #[test]

@@ -1,9 +1,6 @@
 //! `demo`: its page holds together, and whatever it calls found is certified.
-#![allow(clippy::unwrap_used, reason = "a test may fail where it likes")]
 
-mod common;
-
-use common::{Run, formicar_in};
+use crate::common::{Run, formicar_in};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;

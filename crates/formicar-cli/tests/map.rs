@@ -1,9 +1,6 @@
 //! `map`: info, convert, generate, clearance.
-#![allow(clippy::unwrap_used, reason = "a test may fail where it likes")]
 
-mod common;
-
-use common::Room;
+use crate::common::Room;
 use serde_json::json;
 
 #[test]

@@ -1,10 +1,6 @@
 //! `plan`: answers, files, statuses and exit codes.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail where it likes")]
-
-mod common;
-
-use common::{Room, formicar_in};
+use crate::common::{Room, formicar_in};
 use serde_json::{Value, json};
 
 fn keys(object: &Value) -> Vec<&str> {

@@ -1,10 +1,7 @@
 //! What `report` tells of a campaign beside its numbers: parameters with their origins, how it was
 //! run, names for LaTeX; and what it refuses to count twice.
-#![allow(clippy::unwrap_used, reason = "a test may fail where it likes")]
 
-mod common;
-
-use common::Room;
+use crate::common::Room;
 use formicar_lab::tuning::tuned_text;
 use std::fs;
 

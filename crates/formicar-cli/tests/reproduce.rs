@@ -1,12 +1,6 @@
 //! `formicar reproduce`: experiments of papers.
-#![allow(
-    clippy::unwrap_used,
-    reason = "a test suite: helpers outside of tests may fail"
-)]
 
-mod common;
-
-use common::Room;
+use crate::common::Room;
 use std::collections::BTreeMap;
 
 #[test]

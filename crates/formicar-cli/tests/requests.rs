@@ -1,14 +1,10 @@
 //! Requests as users make them: several goals, via points, soft costs; by flags and by lines.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail where it likes")]
-
-mod common;
-
-use common::{Room, formicar_in};
+use crate::common::{Room, Run, formicar_in};
 use serde_json::{Value, json};
 
 /// Plans on the near side of the room's door, with more flags.
-fn near(room: &Room, more: &[&str]) -> common::Run {
+fn near(room: &Room, more: &[&str]) -> Run {
     let start = ["plan", "--map", "room.yaml", "--start", "2,2,0"];
     room.run(&[&start[..], more].concat())
 }

@@ -1,10 +1,7 @@
 //! Programs of others in a campaign: judged, tabled beside ours, and told apart where they fail.
 #![cfg(unix)]
-#![allow(clippy::unwrap_used, reason = "a test may fail where it likes")]
 
-mod common;
-
-use common::Room;
+use crate::common::{Room, Run};
 use std::collections::BTreeMap;
 
 /// The rows of a table by planner, each by column.
@@ -176,7 +173,7 @@ fn programs_that_do_not_start_are_told_before_any_run() {
 }
 
 /// Imports into `r.csv`.
-fn import(room: &Room, words: &[&str]) -> common::Run {
+fn import(room: &Room, words: &[&str]) -> Run {
     let shared = ["import", "--scenario", "s.json", "--out", "r.csv"];
     room.run(&[&shared[..], words].concat())
 }

@@ -1,8 +1,6 @@
 //! `stress`: random scenarios, the same for any number of jobs.
 
-mod common;
-
-use common::Room;
+use crate::common::Room;
 
 #[test]
 fn scenarios_are_the_same_for_any_number_of_jobs_and_one_by_one() {

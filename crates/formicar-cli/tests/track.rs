@@ -1,10 +1,6 @@
 //! `track`: drives in simulation, their files, words and exit codes.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail where it likes")]
-
-mod common;
-
-use common::{Room, Run, formicar_in};
+use crate::common::{Room, Run, formicar_in};
 use serde_json::Value;
 
 /// The room with a plan in it.

@@ -1,9 +1,6 @@
 //! `tune`: a configuration that `plan` takes, the same after a kill, refusals.
-#![allow(clippy::unwrap_used, reason = "a test may fail where it likes")]
 
-mod common;
-
-use common::{Room, Run};
+use crate::common::{Room, Run};
 use std::process::{Command, Stdio};
 
 const FLAGS: [&str; 21] = [

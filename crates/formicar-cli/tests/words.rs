@@ -1,12 +1,10 @@
 //! `list`, `schema`, `completions`, `man`, help, and readers that leave early.
 
-mod common;
-
-use common::{Room, formicar_in};
+use crate::common::{Room, Run, formicar_in};
 use std::io::Read;
 use std::process::{Command, Stdio};
 
-fn run(args: &[&str]) -> common::Run {
+fn run(args: &[&str]) -> Run {
     formicar_in(&std::env::temp_dir(), args, "")
 }
 

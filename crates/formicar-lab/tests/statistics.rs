@@ -1,8 +1,4 @@
 //! Statistics equal those of `SciPy` and statsmodels: `data/make_statistics.py` makes the values.
-#![allow(
-    clippy::unwrap_used,
-    reason = "a test suite: helpers outside of tests may fail"
-)]
 
 use formicar_lab::statistics::{
     holm, quantile, vargha_delaney_a, wilcoxon, wilcoxon_normal, wilson_interval,

@@ -1,9 +1,6 @@
 //! Strangers, slow visitors, many visitors, and bad uploads.
-#![allow(clippy::unwrap_used, reason = "a test suite")]
 
-mod common;
-
-use common::{LEI_MAP1, NEIGHBORHOOD, Visitor, get, http, plan, run, studio};
+use crate::common::{LEI_MAP1, NEIGHBORHOOD, Visitor, get, http, plan, run, studio};
 use formicar_studio::{Limits, Options, StudioError, serve};
 use serde_json::json;
 use std::net::{Ipv4Addr, SocketAddr};

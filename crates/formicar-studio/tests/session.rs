@@ -1,9 +1,6 @@
 //! What a visitor can ask for, and what comes of it.
-#![allow(clippy::unwrap_used, reason = "a test suite")]
 
-mod common;
-
-use common::{LEI_MAP1, NEIGHBORHOOD, Visitor, plan, run, studio};
+use crate::common::{LEI_MAP1, NEIGHBORHOOD, Visitor, get, plan, run, studio};
 use formicar_studio::Options;
 use serde_json::json;
 
@@ -88,7 +85,7 @@ fn what_is_painted_is_planned_around() {
             .as_str()
             .unwrap()
             .to_owned();
-        let picture = common::get(at, &format!("/maps/{hash}/map.yaml"));
+        let picture = get(at, &format!("/maps/{hash}/map.yaml"));
         assert!(picture.contains("image: map.png"), "{picture}");
         visitor
             .say(&json!({ "type": "open_map", "map": { "hash": hash } }))

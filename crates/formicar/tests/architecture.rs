@@ -1,10 +1,5 @@
 //! The house rules that the compiler does not know: module ranks, and what the library must not
 //! touch.
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test suite: helpers outside of tests may fail and say that they skip"
-)]
 
 use std::fs;
 use std::ops::Range;
@@ -78,6 +73,28 @@ fn every_module_has_a_rank() {
     });
     assert!(declared.len() > 10, "lib.rs was not understood");
     report(unlisted.chain(orphans).collect());
+}
+
+#[test]
+fn every_file_of_tests_is_a_module_of_its_binary() {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut faults = Vec::new();
+    for entry in fs::read_dir(crates).unwrap() {
+        let tests = entry.unwrap().path().join("tests");
+        let Ok(main) = fs::read_to_string(tests.join("main.rs")) else {
+            continue;
+        };
+        for file in fs::read_dir(&tests).unwrap() {
+            let file = file.unwrap().path();
+            let module = format!("mod {};", file.file_stem().unwrap().display());
+            let is_suite =
+                file.extension().is_some_and(|e| e == "rs") && !file.ends_with("main.rs");
+            if is_suite && !main.lines().any(|line| line == module) {
+                faults.push(format!("{}: not in main.rs", file.display()));
+            }
+        }
+    }
+    report(faults);
 }
 
 #[test]

@@ -1,9 +1,4 @@
 //! The exact collision geometry against brute force: 10^4 poses and 10^3 drives.
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test suite: helpers outside of tests may fail and say that they skip"
-)]
 
 use formicar::collision::{Body, Drive, MIN_CLEARANCE_M, ObstacleMap};
 use formicar::geometry::{ConvexPolygon, Point2, Pose2};

@@ -1,9 +1,4 @@
 //! Pages that must keep step with the code: links, the table of parameters, the first example.
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test suite: helpers outside of tests may fail and say that they skip"
-)]
 
 use formicar::colony::chord::ChordConfig;
 use formicar::colony::drive::DriveConfig;

@@ -1,9 +1,4 @@
 //! Map and scenario formats on files by others, and on random bytes.
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test suite: helpers outside of tests may fail and say that they skip"
-)]
 
 use formicar::geometry::Pose2;
 use formicar::map::format::{

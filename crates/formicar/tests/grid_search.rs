@@ -1,9 +1,4 @@
 //! A*, the goal field and known optima agree on grids.
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test suite: helpers outside of tests may fail and say that they skip"
-)]
 
 use formicar::collision::ObstacleMap;
 use formicar::geometry::Pose2;

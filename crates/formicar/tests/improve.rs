@@ -1,8 +1,4 @@
 //! The improvement of driven paths before the judge: never worse, never wrong, always the same.
-#![allow(
-    clippy::unwrap_used,
-    reason = "a test suite: helpers outside of tests may fail"
-)]
 
 use formicar::collision::{Body, ObstacleMap};
 use formicar::geometry::{Arc, Point2, Pose2, angle_difference, dubins};

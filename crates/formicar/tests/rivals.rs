@@ -1,8 +1,4 @@
 //! The planners over cells on generated neighborhoods: how many of their ways cars can drive.
-#![allow(
-    clippy::print_stdout,
-    reason = "a test suite: it prints what the book quotes"
-)]
 
 use formicar::map::generate::{NeighborhoodParameters, alley_neighborhood, free_pose_pairs};
 use formicar::numeric::Seed;

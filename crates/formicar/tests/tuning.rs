@@ -1,9 +1,4 @@
 //! The bee colony on functions whose least values are known, and what it promises of itself.
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test suite: helpers outside of tests may fail and tell what they measured"
-)]
 
 use formicar::numeric::Seed;
 use formicar::tuning::{

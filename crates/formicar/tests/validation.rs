@@ -1,9 +1,4 @@
 //! The judge on paths with one fault each.
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test suite: helpers outside of tests may fail and say that they skip"
-)]
 
 use formicar::collision::ObstacleMap;
 use formicar::geometry::{Point2, Pose2};

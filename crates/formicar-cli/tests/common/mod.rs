@@ -1,10 +1,4 @@
 //! Runs the binary, and makes small maps for it.
-#![allow(
-    dead_code,
-    unreachable_pub,
-    reason = "each test file uses its own part"
-)]
-#![allow(clippy::unwrap_used, reason = "a test may fail where it likes")]
 
 use serde_json::Value;
 use std::fs;

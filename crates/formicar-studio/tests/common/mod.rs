@@ -1,9 +1,4 @@
 //! A studio on a free port, and visitors that speak its protocol.
-#![allow(
-    dead_code,
-    clippy::unwrap_used,
-    reason = "a test suite's helpers: each suite uses some of them, and they may fail"
-)]
 
 use formicar_studio::{Options, serve};
 use futures_util::{SinkExt, StreamExt};

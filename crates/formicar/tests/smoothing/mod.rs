@@ -1,10 +1,5 @@
 //! Smoothed grid paths before the judge, 2-turning against brute force, and the reasons where
 //! nothing fits.
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test suite: helpers outside of tests may fail and say that they skip"
-)]
 
 mod brute_force;
 mod certified;

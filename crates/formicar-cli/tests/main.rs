@@ -1,0 +1,20 @@
+//! The command from outside, as one binary: a file for each verb or theme.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may fail")]
+
+mod ants;
+mod bad_input;
+mod bench;
+mod campaign;
+mod check;
+mod common;
+mod demo;
+mod map;
+mod plan;
+mod reports;
+mod reproduce;
+mod requests;
+mod rivals;
+mod stress;
+mod track;
+mod tune;
+mod words;

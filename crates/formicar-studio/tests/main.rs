@@ -1,0 +1,6 @@
+//! The server from outside, as one binary: a file for each theme.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may fail")]
+
+mod common;
+mod robust;
+mod session;

@@ -1,0 +1,28 @@
+//! Suites over the public API, as one binary: a file each.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "helpers of tests may fail, say that they skip, and tell what they measured"
+)]
+
+mod architecture;
+mod chords;
+mod collision;
+mod colony;
+mod continuous;
+mod curves;
+mod documents;
+mod explanations;
+mod formats;
+mod grid_search;
+mod improve;
+mod pictures;
+mod planners;
+mod references;
+mod replanning;
+mod requests;
+mod rivals;
+mod smoothing;
+mod tracking;
+mod tuning;
+mod validation;
