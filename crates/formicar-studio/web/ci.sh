@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The page's checks: types, the committed bundle, and the page in a real browser against the real
-# binary. The output ends with the summary of node's test runner.
+# The page's checks: types, modules, the committed bundle, and the page in a real browser against the
+# real binary. The output ends with the summary of node's test runner.
 #
 # Needs the release binary (cargo build --release), or FORMICAR with the path of one.
 set -euo pipefail
@@ -30,6 +30,9 @@ npm ci --silent --no-audit --no-fund
 
 step "the page's types"
 npm run --silent check
+
+step "the page's modules"
+npm run --silent unit
 
 step "the page's bundle"
 built=$(mktemp -d)
