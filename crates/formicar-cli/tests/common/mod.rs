@@ -7,15 +7,15 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// What a run printed, and its exit code.
-pub struct Run {
-    pub code: i32,
-    pub stdout: String,
-    pub stderr: String,
+pub(crate) struct Run {
+    pub(crate) code: i32,
+    pub(crate) stdout: String,
+    pub(crate) stderr: String,
 }
 
 impl Run {
     /// The only line of stdout, as JSON.
-    pub fn json(&self) -> Value {
+    pub(crate) fn json(&self) -> Value {
         assert_eq!(
             self.stdout.lines().count(),
             1,
@@ -27,7 +27,7 @@ impl Run {
     }
 
     /// Asserts that the input was refused in words, without a panic.
-    pub fn assert_refused(&self, words: &[&str]) {
+    pub(crate) fn assert_refused(&self, words: &[&str]) {
         assert_eq!(self.code, 2, "{}{}", self.stdout, self.stderr);
         assert_eq!(self.stdout, "");
         assert!(!self.stderr.contains("panicked"), "{}", self.stderr);
@@ -42,7 +42,7 @@ impl Run {
 }
 
 /// Runs `formicar` with words, in a folder.
-pub fn formicar_in(folder: &Path, args: &[&str], input: &str) -> Run {
+pub(crate) fn formicar_in(folder: &Path, args: &[&str], input: &str) -> Run {
     let mut child = Command::new(env!("CARGO_BIN_EXE_formicar"))
         .args(args)
         .current_dir(folder)
@@ -64,8 +64,8 @@ pub fn formicar_in(folder: &Path, args: &[&str], input: &str) -> Run {
 }
 
 /// A room of 12 x 8 m at 0.2 m: walls around it and one across, with a door.
-pub struct Room {
-    pub folder: tempfile::TempDir,
+pub(crate) struct Room {
+    pub(crate) folder: tempfile::TempDir,
 }
 
 const N_COLS: usize = 60;
@@ -73,7 +73,7 @@ const N_ROWS: usize = 40;
 
 impl Room {
     /// Writes `room.yaml` and `room.pgm`.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let folder = tempfile::tempdir().unwrap();
         let wall = |col: usize, row: usize| {
             let around = col == 0 || row == 0 || col == N_COLS - 1 || row == N_ROWS - 1;
@@ -90,25 +90,25 @@ impl Room {
         Self { folder }
     }
 
-    pub fn path(&self, name: &str) -> PathBuf {
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
 
-    pub fn write(&self, name: &str, contents: impl AsRef<[u8]>) {
+    pub(crate) fn write(&self, name: &str, contents: impl AsRef<[u8]>) {
         fs::write(self.path(name), contents).unwrap();
     }
 
-    pub fn read(&self, name: &str) -> String {
+    pub(crate) fn read(&self, name: &str) -> String {
         fs::read_to_string(self.path(name)).unwrap()
     }
 
     /// Runs in the room's folder.
-    pub fn run(&self, args: &[&str]) -> Run {
+    pub(crate) fn run(&self, args: &[&str]) -> Run {
         formicar_in(self.folder.path(), args, "")
     }
 
     /// Plans through the door of the room, with more flags.
-    pub fn plan(&self, more: &[&str]) -> Run {
+    pub(crate) fn plan(&self, more: &[&str]) -> Run {
         let through = [
             "plan",
             "--map",
@@ -122,7 +122,7 @@ impl Room {
     }
 
     /// Files in the folder, sorted.
-    pub fn files(&self) -> Vec<String> {
+    pub(crate) fn files(&self) -> Vec<String> {
         let entries = fs::read_dir(self.folder.path()).unwrap();
         let name = |entry: std::io::Result<fs::DirEntry>| {
             entry.unwrap().file_name().into_string().unwrap()
@@ -134,9 +134,9 @@ impl Room {
 }
 
 /// The rows of a table, by column.
-pub struct Table {
+pub(crate) struct Table {
     columns: Vec<String>,
-    pub rows: Vec<Vec<String>>,
+    pub(crate) rows: Vec<Vec<String>>,
 }
 
 /// Columns that differ from run to run.
@@ -153,7 +153,7 @@ const VARYING: [&str; 9] = [
 ];
 
 impl Table {
-    pub fn of(text: &str) -> Self {
+    pub(crate) fn of(text: &str) -> Self {
         let mut reader = csv::Reader::from_reader(text.as_bytes());
         let owned = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
         Self {
@@ -162,18 +162,18 @@ impl Table {
         }
     }
 
-    pub fn get(&self, row: usize, column: &str) -> &str {
+    pub(crate) fn get(&self, row: usize, column: &str) -> &str {
         let column = self.columns.iter().position(|c| c == column);
         &self.rows[row][column.expect("a column of this name")]
     }
 
     /// All values of a column.
-    pub fn column(&self, column: &str) -> Vec<&str> {
+    pub(crate) fn column(&self, column: &str) -> Vec<&str> {
         (0..self.rows.len()).map(|i| self.get(i, column)).collect()
     }
 
     /// The rows without times and memory.
-    pub fn repeatable(&self) -> Vec<Vec<&str>> {
+    pub(crate) fn repeatable(&self) -> Vec<Vec<&str>> {
         let kept = |row: usize| {
             let columns = self.columns.iter().map(String::as_str);
             // A slow machine may know no path yet at 0.1 s.
