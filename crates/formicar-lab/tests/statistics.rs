@@ -1,6 +1,6 @@
 //! Statistics equal those of `SciPy` and statsmodels: `data/make_statistics.py` makes the values.
 
-use formicar_lab::statistics::{
+use formicar_lab::analysis::statistics::{
     holm, quantile, vargha_delaney_a, wilcoxon, wilcoxon_normal, wilson_interval,
 };
 use serde_json::Value;

@@ -5,8 +5,8 @@ use crate::failure::{Ending, Failure};
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum, ValueHint};
 use formicar::map::format::write_atomically;
+use formicar_lab::papers::{Reproduction, Scale, Setup};
 use formicar_lab::report::{Fact, markdown};
-use formicar_lab::{Reproduction, Scale, Setup};
 use indicatif::ProgressBar;
 use std::fs;
 use std::io::Write;
@@ -68,11 +68,11 @@ type Experiment = fn(&Setup, &mut dyn FnMut(&str)) -> Result<Reproduction>;
 impl Paper {
     fn experiments(self) -> Vec<(&'static str, Experiment)> {
         match self {
-            Self::Lei2020 => vec![("lei2020", formicar_lab::lei2020)],
-            Self::Wang2019 => vec![("wang2019", formicar_lab::wang2019)],
-            Self::Li2024 => vec![("li2024", formicar_lab::li2024)],
-            Self::Replanning => vec![("replanning", formicar_lab::replanning)],
-            Self::Scaling => vec![("scaling", formicar_lab::scaling)],
+            Self::Lei2020 => vec![("lei2020", formicar_lab::papers::lei2020)],
+            Self::Wang2019 => vec![("wang2019", formicar_lab::papers::wang2019)],
+            Self::Li2024 => vec![("li2024", formicar_lab::papers::li2024)],
+            Self::Replanning => vec![("replanning", formicar_lab::papers::replanning)],
+            Self::Scaling => vec![("scaling", formicar_lab::papers::scaling)],
             Self::All => [
                 Self::Lei2020,
                 Self::Wang2019,

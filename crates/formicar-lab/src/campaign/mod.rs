@@ -5,19 +5,15 @@
 //! each, one transaction a run, so that a kill loses nothing but the runs under way and a restart
 //! repeats none that are over.
 
-mod charts;
 mod document;
 mod job;
 mod lock;
 mod mistake;
-mod ompl;
 mod plan;
 mod record;
-mod report;
 mod row;
 mod scenarios;
 mod seeds;
-mod sheets;
 mod store;
 mod stored;
 mod table;
@@ -27,13 +23,10 @@ pub use job::{
     Contender, Job, Limits, OWN_VEHICLE, Place, RivalCommand, RowKey, Task, VehicleChoice,
 };
 pub use mistake::Text;
-pub use ompl::ompl_logs;
 pub use plan::{Campaign, ConfigRecord, Ground, PlannedRun};
 pub use record::{History, Improvement, ORIGIN_COLUMNS, Origin, Record, Told};
-pub use report::report;
 pub use row::{COLUMNS, KNOWN_BY, Row};
 pub use scenarios::ScenariosEntry;
-pub use sheets::parameter_section;
 pub use store::{Store, csv_beside};
 pub use stored::Stored;
 pub use table::{read_csv, to_csv};

@@ -1,7 +1,7 @@
 //! What stands in a cell of a table.
 
 use super::Verdict;
-use crate::statistics::wilson_interval;
+use crate::analysis::statistics::wilson_interval;
 
 /// A field of a table.
 #[derive(Clone, Debug, PartialEq)]

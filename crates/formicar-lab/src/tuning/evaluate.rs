@@ -4,7 +4,7 @@ use super::objective::{Objective, Reference};
 use super::runs::{Asked, TunedRun, run_all};
 use super::space::TuningSpace;
 use super::state::{Subject, TuningState};
-use crate::statistics::quantile;
+use crate::analysis::statistics::quantile;
 use anyhow::{Context, Result, bail};
 use formicar::numeric::Seed;
 use formicar::planner::PlannerConfig;

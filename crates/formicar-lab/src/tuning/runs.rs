@@ -1,6 +1,6 @@
 //! Runs of a configuration on a scenario.
 
-use crate::experiment::Ground;
+use crate::papers::experiment::Ground;
 use formicar::collision::{Body, ObstacleMap};
 use formicar::geometry::Arc;
 use formicar::numeric::Seed;

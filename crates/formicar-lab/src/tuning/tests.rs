@@ -1,5 +1,5 @@
 use super::*;
-use crate::experiment::Ground;
+use crate::papers::experiment::Ground;
 use formicar::map::builtin::BuiltinMap;
 use formicar::numeric::Seed;
 use formicar::planner::{PlannerConfig, PlannerName};

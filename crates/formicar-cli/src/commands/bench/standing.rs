@@ -6,9 +6,10 @@ use crate::commands::results::config_facts;
 use crate::files;
 use anyhow::{Context, Result};
 use formicar::scenario::MotionMode;
-use formicar_lab::campaign::{ConfigRecord, Job, Place, parameter_section};
+use formicar_lab::analysis::parameter_section;
+use formicar_lab::analysis::standing::{Peer, Standing};
+use formicar_lab::campaign::{ConfigRecord, Job, Place};
 use formicar_lab::report::{Fact, Page, markdown, page};
-use formicar_lab::standing::{Peer, Standing};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 

@@ -4,8 +4,8 @@
 use crate::commands::bench::{campaign, execute, store};
 use crate::commands::machine;
 use anyhow::{Context, Result, bail};
+use formicar_lab::analysis::compare::Side;
 use formicar_lab::campaign::{Campaign, PlannedRun, Record};
-use formicar_lab::compare::Side;
 use std::path::Path;
 use std::process::Command;
 

@@ -8,7 +8,7 @@ pub(crate) use args::CompareArgs;
 use super::{machine, results};
 use crate::failure::{Ending, Failure};
 use anyhow::Result;
-use formicar_lab::compare::{Comparison, Scope, Side};
+use formicar_lab::analysis::compare::{Comparison, Scope, Side};
 use formicar_lab::report::{Fact, latex, markdown};
 use std::io::Write;
 use std::path::Path;

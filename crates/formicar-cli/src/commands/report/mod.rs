@@ -7,9 +7,8 @@ use crate::failure::{Ending, Failure};
 use anyhow::{Result, bail};
 use clap::{Args, ValueHint};
 use formicar::numeric::counted;
-use formicar_lab::campaign::{
-    ConfigRecord, Record, Stored, ompl_logs, parameter_section, report, to_csv,
-};
+use formicar_lab::analysis::{ompl_logs, parameter_section, report};
+use formicar_lab::campaign::{ConfigRecord, Record, Stored, to_csv};
 use formicar_lab::report::{Fact, latex, markdown, numbers_csv};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;

@@ -7,7 +7,7 @@ use crate::ground;
 use anyhow::{Context, Result, bail};
 use formicar::map::builtin::BuiltinMap;
 use formicar::scenario::Request;
-use formicar_lab::Ground;
+use formicar_lab::papers::Ground;
 use formicar_lab::tuning::Asked;
 use std::path::Path;
 

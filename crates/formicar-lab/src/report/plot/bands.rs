@@ -2,7 +2,7 @@
 
 use super::axis::{Scale, ScaleKind};
 use super::canvas::{Anchor, Canvas, INK, Pen, TEXT_PX, look, width_px};
-use crate::statistics::quartiles;
+use crate::analysis::statistics::quartiles;
 use serde::Serialize;
 
 const WIDTH_PX: f64 = 1000.0;

@@ -2,7 +2,7 @@
 
 use super::axis::{Scale, ScaleKind};
 use super::canvas::{Anchor, Canvas, FIRST, INK, MUTED, Pen, SECOND, TEXT_PX};
-use crate::statistics::quantile;
+use crate::analysis::statistics::quantile;
 use serde::Serialize;
 
 const N_COLUMNS: usize = 3;

@@ -1,0 +1,8 @@
+//! Runs made into statements: statistics, comparisons of two sides, goals and peers, reports.
+
+pub mod compare;
+pub mod standing;
+pub mod statistics;
+mod summary;
+
+pub use summary::{ompl_logs, parameter_section, report};

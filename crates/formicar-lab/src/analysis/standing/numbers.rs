@@ -1,0 +1,130 @@
+//! Runs by scenario.
+
+use super::Measured;
+use crate::analysis::statistics::quantile;
+use std::collections::BTreeMap;
+
+/// The runs of one planner.
+pub(super) struct Runs<'a> {
+    pub(super) planner: &'a str,
+    pub(super) all: Vec<&'a Measured>,
+    /// The runs of each scenario.
+    pub(super) by_scenario: BTreeMap<&'a str, Vec<&'a Measured>>,
+}
+
+impl<'a> Runs<'a> {
+    pub(super) fn new(runs: impl IntoIterator<Item = &'a Measured>) -> Self {
+        let all: Vec<&Measured> = runs.into_iter().collect();
+        let mut by_scenario: BTreeMap<&str, Vec<&Measured>> = BTreeMap::new();
+        for run in &all {
+            by_scenario.entry(&run.scenario).or_default().push(run);
+        }
+        Self {
+            planner: all.first().map_or("", |run| &run.planner),
+            all,
+            by_scenario,
+        }
+    }
+
+    /// The same runs, of some scenarios alone.
+    pub(super) fn only(&self, is_wanted: impl Fn(&Measured) -> bool) -> Self {
+        let runs = self.all.iter().copied().filter(|run| is_wanted(run));
+        Self {
+            planner: self.planner,
+            ..Self::new(runs)
+        }
+    }
+
+    /// The files or maps that the scenarios are of.
+    pub(super) fn sources(&self) -> Vec<&'a str> {
+        let mut sources: Vec<&str> = self.all.iter().map(|run| run.source.as_str()).collect();
+        sources.sort_unstable();
+        sources.dedup();
+        sources
+    }
+
+    pub(super) fn n_solved(&self) -> usize {
+        self.all.iter().filter(|run| run.is_solved()).count()
+    }
+
+    /// A value of every run that has it.
+    pub(super) fn values(&self, of: impl Fn(&Measured) -> Option<f64>) -> Vec<f64> {
+        self.all.iter().filter_map(|run| of(run)).collect()
+    }
+
+    /// Times to the first path of all runs; those without a path take forever.
+    pub(super) fn first_s(&self) -> Vec<f64> {
+        self.all.iter().map(|run| first_s(run)).collect()
+    }
+
+    /// The median over the seeds of a scenario, where a run without the value counts as infinite;
+    /// none of a scenario that was not run.
+    pub(super) fn median_of(
+        &self,
+        scenario: &str,
+        of: impl Fn(&Measured) -> Option<f64>,
+    ) -> Option<f64> {
+        let runs = self.by_scenario.get(scenario)?;
+        let values: Vec<f64> = runs
+            .iter()
+            .map(|run| of(run).unwrap_or(f64::INFINITY))
+            .collect();
+        median(&values)
+    }
+}
+
+/// Time to the first certified path, or forever.
+pub(super) fn first_s(run: &Measured) -> f64 {
+    let first_s = run.first_feasible_s.filter(|_| run.is_solved());
+    first_s.unwrap_or(f64::INFINITY)
+}
+
+/// The median.
+pub(super) fn median(values: &[f64]) -> Option<f64> {
+    finite_or_forever(values, 0.5)
+}
+
+/// The value that nine tenths do not exceed.
+pub(super) fn p90(values: &[f64]) -> Option<f64> {
+    finite_or_forever(values, 0.9)
+}
+
+/// The largest value.
+pub(super) fn largest(values: &[f64]) -> Option<f64> {
+    values.iter().copied().max_by(f64::total_cmp)
+}
+
+/// The smallest value.
+pub(super) fn smallest(values: &[f64]) -> Option<f64> {
+    values.iter().copied().min_by(f64::total_cmp)
+}
+
+/// A quantile of values of which some may be infinite: forever where it lies between values of
+/// which one is.
+fn finite_or_forever(values: &[f64], p: f64) -> Option<f64> {
+    let between = quantile(values, p)?;
+    if !between.is_nan() {
+        return Some(between);
+    }
+    // Infinity less itself, or none of infinity: the value lies on its lower neighbor.
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted
+        .get((p * (sorted.len() - 1) as f64) as usize)
+        .copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_with_values_that_take_forever() {
+        let forever = f64::INFINITY;
+        assert_eq!(median(&[1.0, 2.0, forever]), Some(2.0));
+        assert_eq!(median(&[1.0, forever]), Some(forever));
+        assert_eq!(median(&[forever, forever]), Some(forever));
+        assert_eq!(p90(&[3.0]), Some(3.0));
+        assert_eq!(median(&[]), None);
+    }
+}

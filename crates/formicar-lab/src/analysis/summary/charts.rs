@@ -1,0 +1,275 @@
+//! Runs of stores as charts: how values are spread, how pairs differ, how paths get better.
+
+use super::report::place;
+use crate::analysis::compare::{METRICS, Metric, planners, runs_of};
+use crate::campaign::{Improvement, Record};
+use crate::report::{
+    BandPanel, Bands, Block, BoxGroup, BoxPlot, Course, PairedPanel, PairedPlot, ScaleKind, Section,
+};
+use std::collections::BTreeMap;
+
+/// Metrics that are drawn as they are, on a logarithmic axis.
+const TIMES: [&str; 2] = ["first path ms", "query ms"];
+/// Metrics that depend on how far apart the ends are: drawn over the least of their scenario.
+const EXTENTS: [&str; 2] = ["length m", "cost m"];
+/// Metrics that are drawn as they are.
+const PLAIN: [&str; 1] = ["clearance m"];
+
+fn metrics<'a>(names: &'a [&str]) -> impl Iterator<Item = &'static Metric> + 'a {
+    METRICS.iter().filter(|metric| names.contains(&metric.name))
+}
+
+/// The least value of a metric in each place, whoever reached it.
+fn least<'a>(records: &'a [Record], metric: &Metric) -> BTreeMap<[&'a str; 3], f64> {
+    let mut least = BTreeMap::new();
+    for record in records {
+        if let Some(value) = metric.of(record).filter(|value| *value > 0.0) {
+            let entry = least.entry(place(record)).or_insert(value);
+            *entry = value.min(*entry);
+        }
+    }
+    least
+}
+
+/// Every planner's values, as boxes.
+pub(super) fn spreads(records: &[Record]) -> Section {
+    let mut blocks = Vec::new();
+    for metric in metrics(&TIMES) {
+        let of = |record: &Record| metric.of(record);
+        blocks.extend(spread(records, (metric.name, ScaleKind::Log), of));
+    }
+    for metric in metrics(&EXTENTS) {
+        let least = least(records, metric);
+        let of = |record: &Record| Some(metric.of(record)? / least.get(&place(record))?);
+        let words = metric.name.trim_end_matches(" m");
+        let quantity = format!("{words} over the least of its scenario");
+        blocks.extend(spread(records, (&quantity, ScaleKind::Linear), of));
+    }
+    for metric in metrics(&PLAIN) {
+        let of = |record: &Record| metric.of(record);
+        blocks.extend(spread(records, (metric.name, ScaleKind::Linear), of));
+    }
+    Section {
+        heading: "How values are spread".to_owned(),
+        blocks,
+    }
+}
+
+/// A box for each planner that has values; nothing where none has.
+fn spread(
+    records: &[Record],
+    (quantity, scale): (&str, ScaleKind),
+    of: impl Fn(&Record) -> Option<f64>,
+) -> Option<Block> {
+    let group = |name: &&str| BoxGroup {
+        name: (*name).to_owned(),
+        values: runs_of(records, name).into_iter().filter_map(&of).collect(),
+    };
+    let names = planners(records);
+    let groups = names.iter().map(group);
+    let groups: Vec<BoxGroup> = groups.filter(|group| !group.values.is_empty()).collect();
+    (!groups.is_empty()).then(|| {
+        Block::BoxPlot(BoxPlot {
+            caption: format!(
+                "Solved runs, {quantity}: box from quartile to quartile with the median, whiskers \
+                 within 1.5 box lengths, every run a dot."
+            ),
+            quantity: quantity.to_owned(),
+            scale,
+            groups,
+            reference: None,
+        })
+    })
+}
+
+/// By how many percent a planner is above another, pair by pair; nothing without pairs.
+pub(super) fn differences(pairs: &[[&Record; 2]]) -> Option<Block> {
+    let panel = |metric: &Metric| {
+        let difference = |[first, other]: &[&Record; 2]| {
+            let base = metric.of(first).filter(|v| *v > 0.0)?;
+            Some(100.0 * (metric.of(other)? / base - 1.0))
+        };
+        PairedPanel {
+            name: metric.name.to_owned(),
+            differences: pairs.iter().filter_map(difference).collect(),
+        }
+    };
+    let drawn = metrics(&TIMES)
+        .chain(metrics(&EXTENTS))
+        .chain(metrics(&PLAIN));
+    let panels = drawn.map(panel);
+    let panels: Vec<PairedPanel> = panels.filter(|p| !p.differences.is_empty()).collect();
+    (!panels.is_empty()).then(|| {
+        Block::Paired(PairedPlot {
+            caption:
+                "Pairs of one scenario and seed that both solve, sorted: filled dots are below \
+                      the first planner, hollow ones above."
+                    .to_owned(),
+            quantity: "difference to the first planner, %".to_owned(),
+            panels,
+        })
+    })
+}
+
+/// How the paths of solved runs get better; nothing where no history is known.
+pub(super) fn convergence(records: &[Record]) -> Option<Section> {
+    let figures = [by_time_and_steps(records), by_iteration(records)];
+    let figures = figures.into_iter().filter(is_drawn);
+    let blocks: Vec<Block> = figures.map(Block::Bands).collect();
+    (!blocks.is_empty()).then(|| Section {
+        heading: "How paths get better".to_owned(),
+        blocks,
+    })
+}
+
+fn is_drawn(bands: &Bands) -> bool {
+    let mut courses = bands.panels.iter().flat_map(|panel| &panel.courses);
+    courses.any(|course| !course.points.is_empty())
+}
+
+/// Length of the best path by time and by steps, over the least of its scenario.
+fn by_time_and_steps(records: &[Record]) -> Bands {
+    let least: BTreeMap<_, f64> = metrics(&["length m"])
+        .flat_map(|length| least(records, length))
+        .collect();
+    let panel = |x: &str, of: fn(&Improvement) -> f64| {
+        let points = |record: &Record| {
+            let least_m = least.get(&place(record)).copied().unwrap_or(f64::NAN);
+            let points = record.history.improvements.iter();
+            points
+                .map(|i| [of(i).max(f64::MIN_POSITIVE), i.length_m / least_m])
+                .collect()
+        };
+        BandPanel {
+            x: x.to_owned(),
+            x_scale: ScaleKind::Log,
+            courses: courses(records, ScaleKind::Log, points),
+        }
+    };
+    Bands {
+        caption: "Certified paths of the solved runs alone, from the beginning of the query on: \
+                  median and the band between quartiles, from where three quarters of a planner's \
+                  solved runs have a path; a dot with its quartiles where all of that is one place."
+            .to_owned(),
+        quantity: "length over the least of its scenario".to_owned(),
+        y_scale: ScaleKind::Linear,
+        panels: vec![
+            panel("ms", |improvement| 1e3 * improvement.at_s),
+            panel("steps", |improvement| improvement.steps as f64),
+        ],
+    }
+}
+
+/// Least cost so far of colonies by iteration, over the last one of its run: what a colony costs
+/// its ways in is its own, so that other colonies' costs are in other units.
+fn by_iteration(records: &[Record]) -> Bands {
+    let points = |record: &Record| {
+        let costs = record.history.iterations.iter();
+        let costs: Vec<Option<f64>> = costs.map(|i| i["best_so_far_cost"].as_f64()).collect();
+        let last = costs.iter().rev().find_map(|cost| *cost);
+        let point = |(i, cost): (usize, &Option<f64>)| {
+            let share = (*cost)? / last.filter(|last| *last > 0.0)?;
+            Some([1.0 + i as f64, share])
+        };
+        costs.iter().enumerate().filter_map(point).collect()
+    };
+    Bands {
+        caption: "Ways of the ants in the solved runs alone: the least cost up to an iteration \
+                  over that after the last one, median and the band between quartiles, from where \
+                  three quarters of a colony's solved runs have a way; a dot where that is one \
+                  iteration."
+            .to_owned(),
+        quantity: "least cost over the last of its run".to_owned(),
+        y_scale: ScaleKind::Linear,
+        panels: vec![BandPanel {
+            x: "iteration".to_owned(),
+            x_scale: ScaleKind::Linear,
+            courses: courses(records, ScaleKind::Linear, points),
+        }],
+    }
+}
+
+/// A course for each planner, over its solved runs that have points.
+fn courses(
+    records: &[Record],
+    scale: ScaleKind,
+    points: impl Fn(&Record) -> Vec<[f64; 2]>,
+) -> Vec<Course> {
+    let course = |planner: &&str| {
+        let runs = runs_of(records, planner).into_iter();
+        let solved = runs.filter(|record| record.row.is_solved());
+        let runs: Vec<Vec<[f64; 2]>> = solved.map(&points).filter(|run| !run.is_empty()).collect();
+        Course::of_runs(planner, &runs, scale)
+    };
+    planners(records).iter().map(course).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn run(planner: &str, seed: u64, is_solved: bool) -> Record {
+        let mut record = Record::default();
+        record.row.fill(&json!({
+            "scenario": "s", "planner": planner, "seed": seed, "length_m": 10.0,
+            "status": if is_solved { "found" } else { "no_path" }, "valid": is_solved,
+        }));
+        if is_solved {
+            let improvement = |at_s, length_m| Improvement {
+                at_s,
+                steps: 1,
+                length_m,
+            };
+            record.history.improvements = vec![improvement(0.1, 20.0), improvement(0.4, 10.0)];
+        }
+        record
+    }
+
+    #[test]
+    fn a_planner_that_rarely_solves_has_a_course_of_its_solved_runs() {
+        let records: Vec<Record> = (0..8).map(|seed| run("p", seed, seed == 3)).collect();
+        let section = convergence(&records).unwrap();
+        let [Block::Bands(bands)] = &section.blocks[..] else {
+            panic!("{section:?}");
+        };
+        let points = &bands.panels[0].courses[0].points;
+        assert_eq!(points[0][1..], [2.0; 3]);
+        assert_eq!(points[points.len() - 1], [400.0, 1.0, 1.0, 1.0]);
+        assert!(bands.caption.contains("solved runs alone"));
+        assert_eq!(convergence(&records[..3]), None);
+    }
+
+    #[test]
+    fn a_colony_of_one_iteration_is_a_dot() {
+        let mut records = vec![run("ants", 0, true), run("ants", 1, true)];
+        for record in &mut records {
+            record.history.iterations = vec![json!({"best_so_far_cost": 6.0})];
+        }
+        let Block::Bands(bands) = &convergence(&records).unwrap().blocks[1] else {
+            panic!("no picture by iteration");
+        };
+        assert_eq!(bands.panels[0].courses[0].points, [[1.0; 4]]);
+        assert!(bands.to_svg().contains("<circle"));
+    }
+
+    #[test]
+    fn colonies_have_a_course_by_iteration() {
+        let mut records = vec![run("ants", 0, true), run("astar", 0, true)];
+        let costs = [None, Some(6.0), Some(4.0)];
+        let iterations = costs.map(|cost: Option<f64>| json!({"best_so_far_cost": cost}));
+        records[0].history.iterations = iterations.to_vec();
+        let section = convergence(&records).unwrap();
+        let Block::Bands(bands) = &section.blocks[1] else {
+            panic!("{section:?}");
+        };
+        let [ants, other] = &bands.panels[0].courses[..] else {
+            panic!("{bands:?}");
+        };
+        assert_eq!(ants.points[0], [2.0, 1.5, 1.5, 1.5]);
+        assert_eq!(ants.points[ants.points.len() - 1], [3.0, 1.0, 1.0, 1.0]);
+        assert!(other.points.is_empty());
+        let svg = bands.to_svg();
+        assert!(svg.contains(">ants<") && !svg.contains(">astar<"), "{svg}");
+    }
+}

@@ -1,0 +1,88 @@
+//! One run kept whole, to be drawn.
+
+use crate::papers::experiment::{Ground, Variant};
+use crate::report::{Figure, Overlay, OverlayPath, strips};
+use anyhow::Result;
+use formicar::numeric::Seed;
+use formicar::planner::{Outcome, Planner};
+
+/// A run with the seed 0.
+pub(crate) struct Exhibit {
+    pub(crate) variant: String,
+    pub(crate) outcome: Outcome,
+}
+
+/// Which path of a run is drawn.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Line {
+    /// The ants' way from cell to cell.
+    Cells,
+    /// The curve that was judged, or the ants' way where there is none.
+    Curve,
+}
+
+impl Exhibit {
+    pub(crate) fn new(ground: &Ground, variant: &Variant) -> Result<Self> {
+        let mut planner =
+            Planner::new(&ground.grid, ground.vehicle.clone(), variant.config.clone())?;
+        Ok(Self {
+            variant: variant.name.clone(),
+            outcome: planner.plan(&ground.request, Seed(0), &mut ())?,
+        })
+    }
+
+    /// The line as a path to be drawn; none where the run has none.
+    fn path(&self, ground: &Ground, line: Line) -> Option<OverlayPath> {
+        let curve = match line {
+            Line::Cells => None,
+            Line::Curve => self.outcome.judged(),
+        };
+        if let Some((curve, _)) = curve {
+            return Some(OverlayPath::along(&self.variant, curve));
+        }
+        let frame = ground.grid.frame();
+        let cells = &self.outcome.stages().grid_path.as_ref()?.cells;
+        Some(OverlayPath {
+            name: self.variant.clone(),
+            points: cells.iter().map(|&cell| frame.center(cell)).collect(),
+        })
+    }
+}
+
+/// The paths of several runs on their map.
+pub(crate) fn overlay(
+    ground: &Ground,
+    (exhibits, line): (&[Exhibit], Line),
+    caption: &str,
+) -> Figure {
+    let paths = exhibits.iter();
+    let paths = paths.filter_map(|exhibit| exhibit.path(ground, line));
+    Overlay {
+        caption: caption.to_owned(),
+        map: &ground.grid,
+        window: None,
+        vehicle: &ground.vehicle,
+        ends: [ground.request.start, ground.request.goal],
+        paths: paths.collect(),
+    }
+    .figure()
+}
+
+/// Curvature, steering and clearance along the judged path of a run; none where it has none.
+pub(crate) fn strips_of(ground: &Ground, exhibit: &Exhibit) -> Option<Figure> {
+    let (path, report) = exhibit.outcome.judged()?;
+    let word = if matches!(exhibit.outcome, Outcome::Found(_)) {
+        "certified"
+    } else {
+        "refused by the judge"
+    };
+    let caption = format!(
+        "`{}` on `{}`, seed 0: curvature, steering and clearance along its path of {:.2} m, {word}, \
+         least clearance {:.3} m. Dashed lines are the vehicle's limits.",
+        exhibit.variant,
+        ground.map,
+        path.length_m(),
+        report.min_clearance_m
+    );
+    Some(strips(&caption, (&ground.grid, &ground.vehicle), path))
+}

@@ -1,0 +1,138 @@
+//! What an experiment is made of.
+
+use crate::papers::trial::{Run, Trial};
+use crate::run::pool;
+use anyhow::{Context, Result};
+use formicar::map::OccupancyGrid;
+use formicar::map::builtin::BuiltinMap;
+use formicar::planner::{PlannerConfig, PlannerName};
+use formicar::scenario::{GoalHeading, Request, StartHeading};
+use formicar::vehicle::Vehicle;
+use std::path::PathBuf;
+
+/// How much is run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Scale {
+    /// Runs of each variant on each map, with the seeds 0 to `n_seeds` - 1.
+    pub n_seeds: u64,
+    /// Runs of each method on further scenarios, with the seeds from 0 on.
+    pub n_runs: u64,
+    /// Repetitions of each timing.
+    pub n_timings: usize,
+    /// Whether only the smaller of several sizes and sets are run.
+    pub is_small: bool,
+}
+
+impl Scale {
+    /// As published.
+    pub const FULL: Self = Self {
+        n_seeds: 31,
+        n_runs: 10,
+        n_timings: 11,
+        is_small: false,
+    };
+    /// Enough to see that it works.
+    pub const QUICK: Self = Self {
+        n_seeds: 3,
+        n_runs: 3,
+        n_timings: 3,
+        is_small: true,
+    };
+}
+
+/// How much is run, and on what.
+#[derive(Clone, Debug)]
+pub struct Setup {
+    /// How much.
+    pub scale: Scale,
+    /// Folder of data sets; what is not there is passed over.
+    pub data: PathBuf,
+    /// Runs at a time. Results do not depend on it; times do.
+    pub n_jobs: usize,
+}
+
+/// A configuration with a name.
+#[derive(Clone, Debug)]
+pub struct Variant {
+    /// Its name in tables.
+    pub name: String,
+    /// The configuration.
+    pub config: PlannerConfig,
+}
+
+impl Variant {
+    /// A planner as it is.
+    pub(crate) fn of(planner: PlannerName) -> Self {
+        Self {
+            name: planner.name().to_owned(),
+            config: PlannerConfig::of(planner),
+        }
+    }
+
+    /// A planner with something changed.
+    pub(crate) fn changed(
+        planner: PlannerName,
+        what: &str,
+        change: impl FnOnce(&mut PlannerConfig),
+    ) -> Self {
+        let mut config = PlannerConfig::of(planner);
+        change(&mut config);
+        Self {
+            name: format!("{}, {what}", planner.name()),
+            config,
+        }
+    }
+}
+
+/// A map, a vehicle and a request with free headings, as the papers ask.
+#[derive(Clone, Debug)]
+pub struct Ground {
+    /// Name of the map, with that of the request where there are several.
+    pub map: String,
+    /// The map itself.
+    pub grid: OccupancyGrid,
+    /// Who drives.
+    pub vehicle: Vehicle,
+    /// From where to where.
+    pub request: Request,
+}
+
+impl Ground {
+    /// A built-in map with its first request and its own vehicle.
+    pub(crate) fn builtin(map: &str) -> Result<Self> {
+        let builtin = BuiltinMap::by_name(map)?;
+        let ends = &builtin.requests[0];
+        Ok(Self {
+            map: map.to_owned(),
+            grid: builtin.grid(),
+            vehicle: Vehicle::preset(builtin.vehicle)
+                .with_context(|| format!("vehicle {} of {map}", builtin.vehicle))?,
+            request: Request {
+                start_heading: StartHeading::Any,
+                goal_heading: GoalHeading::Any,
+                ..Request::new(ends.start, ends.goal)
+            },
+        })
+    }
+}
+
+/// Runs every variant on every ground with every seed, and tells before each variant.
+pub(crate) fn run_all(
+    grounds: &[Ground],
+    variants: impl Fn(&Ground) -> Vec<Variant>,
+    setup: &Setup,
+    tell: &mut dyn FnMut(&str),
+) -> Result<Vec<Run>> {
+    let mut runs = Vec::new();
+    for ground in grounds {
+        for variant in variants(ground) {
+            tell(&format!("{}: {}", ground.map, variant.name));
+            let n_seeds = setup.scale.n_seeds as usize;
+            let of_variant = pool::map(setup.n_jobs, n_seeds, |seed| {
+                Trial::run(ground, &variant, seed as u64)
+            });
+            runs.extend(of_variant?);
+        }
+    }
+    Ok(runs)
+}

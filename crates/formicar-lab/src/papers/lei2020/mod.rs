@@ -1,0 +1,184 @@
+//! Lei & Zheng 2020: what each part of the method brings, on three maps.
+
+mod claims;
+mod figures;
+mod tables;
+mod variants;
+
+use crate::papers::correspondence::{self, NOT_MADE, Place};
+use crate::papers::experiment::{Ground, Setup, Variant, run_all};
+use crate::papers::parameters;
+use crate::papers::reproduction::Reproduction;
+use crate::papers::trials::Runs;
+use crate::report::{Block, Report, Section};
+use anyhow::Result;
+use formicar::planner::PlannerName;
+use variants::{CONVENTIONAL, ELITE, IMPROVED, variants};
+
+/// A map with what the paper's Table 1 gives for one of the same size of its own: conventional,
+/// elite, improved; lengths in cells, times in seconds.
+struct Map {
+    name: &'static str,
+    figure: &'static str,
+    lengths: [f64; 3],
+    times_s: [f64; 3],
+}
+
+const MAPS: [Map; 3] = [
+    Map {
+        name: "lei-map1",
+        figure: "10",
+        lengths: [78.2, 50.5, 37.9],
+        times_s: [302.0, 269.0, 103.0],
+    },
+    Map {
+        name: "lei-map2",
+        figure: "12",
+        lengths: [157.3, 87.4, 58.9],
+        times_s: [2429.0, 1581.0, 964.0],
+    },
+    Map {
+        name: "lei-map3",
+        figure: "13",
+        lengths: [216.9, 133.7, 98.2],
+        times_s: [2653.0, 1835.0, 1207.0],
+    },
+];
+
+/// The three colonies of the paper's Table 1.
+const COLONIES: [&str; 3] = [CONVENTIONAL, ELITE, IMPROVED];
+
+/// Runs conventional, elitist and improved colonies, and the improved one less each of its parts.
+///
+/// # Errors
+/// None that is expected: maps and configurations are built in.
+pub fn lei2020(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproduction> {
+    let grounds = MAPS.map(|map| Ground::builtin(map.name));
+    let grounds = grounds.into_iter().collect::<Result<Vec<_>>>()?;
+    let runs = run_all(&grounds, variants, setup, tell)?;
+    tell("figures");
+    let report = report(&grounds, Runs(&runs))?;
+    Reproduction::of_runs(report, &runs, (&grounds, variants), setup)
+}
+
+fn report(grounds: &[Ground], runs: Runs) -> Result<Report> {
+    let claims = claims::claims(runs);
+    let mut sections = vec![
+        claims.verdicts(),
+        tables::table_1(runs),
+        figures::layers(grounds)?,
+        figures::pheromone(grounds)?,
+        figures::nodes(grounds, runs)?,
+    ];
+    for (map, ground) in MAPS.iter().zip(grounds) {
+        sections.push(figures::paths(map, ground)?);
+    }
+    sections.push(figures::convergence(runs));
+    for map in MAPS {
+        sections.push(of_map(map.name, runs));
+    }
+    sections.push(claims.tests());
+    sections.push(parameters::section(
+        parameters::LEI2020,
+        &Variant::of(PlannerName::Lei2020),
+    )?);
+    sections.push(correspondence::section(&PLACES));
+    Ok(Report {
+        name: "lei2020".to_owned(),
+        title: "Lei & Zheng 2020: what each part brings".to_owned(),
+        intro: "Lengths of the ants' way in cells; medians with quartiles. `optimum` is the \
+                shortest way under the same layers and moves. `certified` counts smoothed paths, \
+                free headings, with a certificate of the whole swept body. `to best` is the \
+                iteration that found the best way. The paper's maps exist only as pictures: ours \
+                have the same sizes and U-shapes, so that ratios compare and lengths do not. The \
+                paper's times are those of MATLAB on an i5-4210M."
+            .to_owned(),
+        sections,
+    })
+}
+
+/// Each part off, on one map.
+fn of_map(map: &str, runs: Runs) -> Section {
+    let caption = format!(
+        "`{map}`: length of the best way of each run by variant. Boxes reach from quartile to \
+         quartile, whiskers to the farthest value within 1.5 box lengths, dots are runs."
+    );
+    let lengths = runs.boxes(map, (&caption, "length, cells"), |trial| trial.length_cells);
+    let optimum = runs.median(map, IMPROVED, |trial| trial.optimum_cells);
+    let reference = optimum.map(|optimum| (optimum, "optimum of lei2020's map".to_owned()));
+    Section {
+        heading: format!("Each part off: {map}"),
+        blocks: vec![
+            Block::Table(tables::ablation(map, runs)),
+            Block::BoxPlot(crate::report::BoxPlot {
+                reference,
+                ..lengths
+            }),
+        ],
+    }
+}
+
+const PLACES: [Place; 14] = [
+    [
+        "Figure 1",
+        NOT_MADE,
+        "concept drawing: the vehicle and its turning circle",
+    ],
+    [
+        "Figure 2",
+        "Obstacle expansion and U-shapes",
+        "on our map of 21 x 21 cells",
+    ],
+    [
+        "Figure 3",
+        "Obstacle expansion and U-shapes",
+        "closed U-shapes of the same map",
+    ],
+    [
+        "Figure 4",
+        "Pheromone at the start, evaporation",
+        "gradient about the line from start to goal",
+    ],
+    [
+        "Figure 5",
+        "Pheromone at the start, evaporation",
+        "equation 1 to the letter and stretched",
+    ],
+    [
+        "Figure 6",
+        NOT_MADE,
+        "concept drawing: two classes of next cells; the rule is on the book's page on transitions",
+    ],
+    [
+        "Figure 7",
+        NOT_MADE,
+        "concept drawing: one node removed; figure 9 shows the outcome",
+    ],
+    [
+        "Figure 8",
+        NOT_MADE,
+        "concept drawing: two arcs at a corner; the book's page on smoothing draws and checks it",
+    ],
+    [
+        "Figure 9",
+        "Redundant nodes",
+        "the same way before and after, and counts over all runs",
+    ],
+    [
+        "Figure 10",
+        "Paths on lei-map1",
+        "with curvature, steering and clearance along the path",
+    ],
+    [
+        "Figure 11",
+        "Convergence",
+        "one run of each, then medians and quartiles; the paper's least-squares curves have no stated form",
+    ],
+    ["Figure 12", "Paths on lei-map2", "map 2"],
+    ["Figure 13", "Paths on lei-map3", "map 3"],
+    [
+        "Table 1",
+        "Table 1: length and time",
+        "our maps of the same sizes",
+    ],
+];

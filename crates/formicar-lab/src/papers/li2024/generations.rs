@@ -1,0 +1,282 @@
+//! Mean and lowest cost J by generation (Li 2024, figure 12).
+
+use super::drive::{Exhibit, Job};
+use super::methods::Generations;
+use crate::analysis::statistics::quartiles;
+use crate::report::{self, BandPanel, Bands, ScaleKind};
+use anyhow::Result;
+use formicar::geometry::Point2;
+use formicar::map::{BitGrid, DiagonalRule};
+use formicar::numeric::Seed;
+use formicar::planner::Planner;
+use formicar::progress::{AntWays, Event, IterationRecord, Observer};
+use formicar::render::{Axis, Chart, Color, Dash, Picture, Ribbon, Series, palette};
+use formicar::smoothing::RedundantNodes;
+use std::time::{Duration, Instant};
+
+/// What the seeds of a method had by generation; a run that stopped keeps its last values.
+#[derive(Clone, Debug)]
+pub(super) struct Course {
+    method: String,
+    /// The lowest cost so far of each run, with paths tried and milliseconds.
+    progress: Vec<Vec<Progress>>,
+    /// Quartiles of the mean cost.
+    mean: Vec<Option<[f64; 3]>>,
+    /// Quartiles of the lowest cost so far.
+    lowest: Vec<Option<[f64; 3]>>,
+}
+
+/// Mean and lowest so far.
+type Generation = [Option<f64>; 2];
+
+/// Paths tried, milliseconds, and the lowest cost so far.
+type Progress = [f64; 3];
+
+/// Where the costs of a generation come from.
+enum Source<'a> {
+    Record,
+    Ways {
+        job: Job<'a>,
+        blocked: &'a BitGrid,
+        rule: DiagonalRule,
+    },
+}
+
+/// Runs a method again, watched, with seeds from 0 on; none where it has no generations.
+pub(super) fn watch(
+    job: Job,
+    kind: Generations,
+    exhibit: &Exhibit,
+    n_seeds: u64,
+) -> Result<Option<Course>> {
+    let source = match (kind, &exhibit.blocked) {
+        (Generations::Record, _) => Source::Record,
+        (Generations::Ways, Some(blocked)) => Source::Ways {
+            job,
+            blocked,
+            rule: job.variant.config.colony.diagonal_rule,
+        },
+        _ => return Ok(None),
+    };
+    let (mut runs, mut progress) = (Vec::new(), Vec::new());
+    for seed in 0..n_seeds {
+        let config = job.variant.config.clone();
+        let begun = Instant::now();
+        let mut planner = Planner::new(&job.ground.grid, job.ground.vehicle.clone(), config)?;
+        let mut watcher = Watcher {
+            source: &source,
+            generations: Vec::new(),
+            progress: Vec::new(),
+            n_tried: 0,
+            begun,
+            watched: Duration::ZERO,
+        };
+        planner.plan(&job.ground.request, Seed(seed), &mut watcher)?;
+        runs.push(watcher.generations);
+        progress.push(watcher.progress);
+    }
+    let course = Course::new(&job.variant.name, &runs);
+    Ok(course.map(|course| Course { progress, ..course }))
+}
+
+struct Watcher<'a> {
+    source: &'a Source<'a>,
+    generations: Vec<Generation>,
+    progress: Vec<Progress>,
+    n_tried: u64,
+    begun: Instant,
+    /// Time that watching itself took.
+    watched: Duration,
+}
+
+impl Observer for Watcher<'_> {
+    fn on_event(&mut self, event: &Event) {
+        let after = self.begun.elapsed().saturating_sub(self.watched);
+        if let Some((record, costs)) = self.source.costs(event) {
+            self.note(record, costs, after);
+        }
+        self.watched = self.begun.elapsed().saturating_sub(after);
+    }
+}
+
+impl Watcher<'_> {
+    fn note(&mut self, record: &IterationRecord, [mean, best]: Generation, after: Duration) {
+        if record.iteration == 0 {
+            // A method that tries again begins anew.
+            self.generations.clear();
+            self.progress.clear();
+        }
+        self.n_tried += u64::from(record.n_ants);
+        let before = self.generations.last().and_then(|last| last[1]);
+        let lowest = [before, best].into_iter().flatten().reduce(f64::min);
+        self.generations.push([mean, lowest]);
+        let ms = after.as_secs_f64() * 1e3;
+        let progress = lowest.map(|lowest| [self.n_tried as f64, ms, lowest]);
+        self.progress.extend(progress);
+    }
+}
+
+impl Source<'_> {
+    /// Mean and least J of a generation, and its record; none of other events.
+    fn costs<'b>(&self, event: &'b Event) -> Option<(&'b IterationRecord, Generation)> {
+        let (record, ways) = match event {
+            Event::Iteration(view) => (view.record, Some(&view.ways)),
+            Event::Generation(view) => (view.record, None),
+            _ => return None,
+        };
+        let costs = match (self, ways) {
+            (Self::Ways { job, blocked, rule }, Some(ways)) => of_ways(job, ways, (blocked, *rule)),
+            _ => [record.mean_cost, record.best_cost],
+        };
+        Some((record, costs))
+    }
+}
+
+/// Mean and least J of the ways that arrived, without their redundant nodes.
+fn of_ways(job: &Job, ways: &AntWays, (blocked, rule): (&BitGrid, DiagonalRule)) -> Generation {
+    let frame = job.ground.grid.frame();
+    let cost = |ant: usize| {
+        let nodes = RedundantNodes::Remove.apply(blocked, rule, &ways.way(ant));
+        let points: Vec<Point2> = nodes.into_iter().map(|node| frame.center(node)).collect();
+        Some(job.cost(&points).ok()??[0])
+    };
+    let arrived = (0..ways.n_ants()).filter(|&ant| ways.arrived[ant]);
+    let costs: Vec<f64> = arrived.filter_map(cost).collect();
+    let mean = costs.iter().sum::<f64>() / costs.len() as f64;
+    [
+        (!costs.is_empty()).then_some(mean),
+        costs.into_iter().reduce(f64::min),
+    ]
+}
+
+impl Course {
+    /// None where no run had a generation with a cost.
+    fn new(method: &str, runs: &[Vec<Generation>]) -> Option<Self> {
+        let n_generations = runs.iter().map(Vec::len).max().filter(|&n| n > 0)?;
+        let over_runs = |which: usize, i: usize| {
+            let value = |run: &Vec<Generation>| run.get(i).or(run.last()).and_then(|g| g[which]);
+            let values: Vec<f64> = runs.iter().filter_map(value).collect();
+            quartiles(&values)
+        };
+        let course = |which: usize| (0..n_generations).map(|i| over_runs(which, i)).collect();
+        let lowest: Vec<_> = course(1);
+        lowest.iter().any(Option::is_some).then(|| Self {
+            method: method.to_owned(),
+            progress: Vec::new(),
+            mean: course(0),
+            lowest,
+        })
+    }
+}
+
+/// Lines that differ in color and dash.
+const LOOKS: [(Color, Dash); 5] = [
+    (palette::GOAL, Dash::Dotted),
+    (palette::START, Dash::Dashed),
+    (palette::REVERSE, Dash::Solid),
+    (palette::WAYPOINTS, Dash::Dashed),
+    (palette::FORWARD, Dash::Solid),
+];
+
+/// Figure 12: both costs of all methods.
+pub(super) fn picture(courses: &[Course]) -> Picture {
+    let chart = |title: &str, of: fn(&Course) -> &[Option<[f64; 3]>]| Chart {
+        title: title.to_owned(),
+        x: Axis::named("generation"),
+        y: Axis::named("J"),
+        ribbons: lines(courses, |course, color, _| Ribbon {
+            label: String::new(),
+            points: points(of(course))
+                .map(|(x, [low, _, high])| [x, low, high])
+                .collect(),
+            color,
+        }),
+        series: lines(courses, |course, color, dash| Series {
+            dash,
+            ..Series::new(
+                &course.method,
+                points(of(course))
+                    .map(|(x, [_, median, _])| Point2::new(x, median))
+                    .collect(),
+                color,
+            )
+        }),
+        height_px: 300.0,
+        ..Chart::default()
+    };
+    Picture {
+        title: "cost by generation".to_owned(),
+        charts: vec![
+            chart("mean cost J of a generation", |course| &course.mean),
+            chart("lowest cost J so far", |course| &course.lowest),
+        ],
+        ..Picture::default()
+    }
+}
+
+/// The lowest cost so far by generation, by paths tried and by time.
+pub(super) fn bands(courses: &[Course]) -> Bands {
+    let by_generation = |course: &Course| report::Course {
+        name: course.method.clone(),
+        points: points(&course.lowest)
+            .map(|(x, [low, median, high])| [x, low, median, high])
+            .collect(),
+    };
+    let by = |which: usize| {
+        move |course: &Course| {
+            let run = |run: &Vec<Progress>| run.iter().map(|at| [at[which], at[2]]).collect();
+            let runs: Vec<Vec<[f64; 2]>> = course.progress.iter().map(run).collect();
+            report::Course::of_runs(&course.method, &runs, ScaleKind::Log)
+        }
+    };
+    let panel = |x: &str, x_scale, of: &dyn Fn(&Course) -> report::Course| BandPanel {
+        x: x.to_owned(),
+        x_scale,
+        courses: courses.iter().map(of).collect(),
+    };
+    Bands {
+        caption: "Lowest cost J so far, medians and quartiles over the seeds, by generation, by \
+                  paths tried (ants, or individuals) and by time since the map set-up began, less \
+                  the time that watching took."
+            .to_owned(),
+        quantity: "lowest J so far".to_owned(),
+        y_scale: ScaleKind::Linear,
+        panels: vec![
+            panel("generation", ScaleKind::Linear, &by_generation),
+            panel("paths tried", ScaleKind::Log, &by(0)),
+            panel("time, ms", ScaleKind::Log, &by(1)),
+        ],
+    }
+}
+
+fn lines<T>(courses: &[Course], line: impl Fn(&Course, Color, Dash) -> T) -> Vec<T> {
+    let looks = LOOKS.iter().cycle();
+    let pairs = courses.iter().zip(looks);
+    pairs
+        .map(|(course, &(color, dash))| line(course, color, dash))
+        .collect()
+}
+
+/// Generations from 1 on that have a value.
+fn points(values: &[Option<[f64; 3]>]) -> impl Iterator<Item = (f64, [f64; 3])> {
+    let numbered = values.iter().enumerate();
+    numbered.filter_map(|(i, value)| Some((i as f64 + 1.0, (*value)?)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_that_stop_keep_their_last_values() {
+        let runs = [
+            vec![[None, None], [Some(3.0), Some(2.0)]],
+            vec![[Some(5.0), Some(4.0)]],
+        ];
+        let course = Course::new("x", &runs).unwrap();
+        assert_eq!(course.mean, [Some([5.0; 3]), Some([3.5, 4.0, 4.5])]);
+        assert_eq!(course.lowest, [Some([4.0; 3]), Some([2.5, 3.0, 3.5])]);
+        assert!(Course::new("x", &[Vec::new()]).is_none());
+        assert!(Course::new("x", &[vec![[None, None]]]).is_none());
+    }
+}

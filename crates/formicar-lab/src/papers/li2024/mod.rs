@@ -1,0 +1,357 @@
+//! Li et al. 2024: FACO and its six rivals on a neighborhood of 800 x 500 cells.
+
+mod ablation;
+mod best;
+mod claims;
+mod drive;
+mod figures;
+mod generations;
+mod grounds;
+mod group;
+mod methods;
+mod native;
+mod paper;
+mod pictures;
+mod scaling;
+mod tables;
+mod turns;
+
+use crate::papers::correspondence::{self, NOT_MADE, Place};
+use crate::papers::experiment::{Ground, Scale, Setup, Variant};
+use crate::papers::parameters;
+use crate::papers::reproduction::{Reproduction, at_a_time, configs_of, csv, facts_of, seeds};
+use crate::report::{Block, Fact, Figure, Report, Section};
+use crate::run::pool;
+use ablation::ABLATION;
+use anyhow::Result;
+use drive::{Drive, Exhibit, Job};
+use generations::Course;
+use grounds::{hood, neighborhood, shortest_m};
+use methods::{Method, Native, methods};
+use tables::{COMPARISON, Comparison, over_scenarios};
+
+/// The part of the experiment on the scenarios of the data set.
+const HOOD: &str = "hood";
+
+/// Compares all methods on the built-in neighborhood and, where the data set is present, on its
+/// ten scenarios; switches each term of FACO off; and lets its map grow.
+///
+/// # Errors
+/// Files of the data set that cannot be read.
+pub fn li2024(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproduction> {
+    let plan = Plan {
+        methods: methods(),
+        ablation: ablation::variants(),
+        ground: neighborhood()?,
+        hood: hood(setup)?,
+        scale: setup.scale,
+        n_jobs: setup.n_jobs,
+    };
+    plan.run(tell)
+}
+
+/// What is run.
+struct Plan {
+    methods: Vec<Method>,
+    ablation: Vec<Variant>,
+    ground: Ground,
+    /// The scenarios of the data set, or where they were looked for.
+    hood: Result<Vec<Ground>, std::path::PathBuf>,
+    scale: Scale,
+    /// Runs at a time.
+    n_jobs: usize,
+}
+
+/// What was found.
+#[derive(Default)]
+struct Findings {
+    drives: Vec<Drive>,
+    exhibits: Vec<Exhibit>,
+    courses: Vec<Course>,
+    /// Grounds of the scaling experiment.
+    grown: Vec<Ground>,
+}
+
+impl Plan {
+    fn run(&self, tell: &mut dyn FnMut(&str)) -> Result<Reproduction> {
+        let mut findings = Findings::default();
+        self.compare(&mut findings, tell)?;
+        for ground in self.hood.iter().flatten() {
+            for method in &self.methods {
+                let variant = Variant::of(method.planner);
+                let job = job(HOOD, (ground, shortest_m(ground)), &variant, method.native);
+                tell(&format!("{}: {}", ground.map, variant.name));
+                let runs = self.runs(&job, self.scale.n_runs)?;
+                findings.drives.extend(runs.into_iter().map(|run| run.0));
+            }
+        }
+        self.switch_terms_off(&mut findings, tell)?;
+        if let Some(method) = scaling::subject(&self.methods) {
+            let (drives, grounds) = scaling::run(method, self.scale, tell)?;
+            findings.drives.extend(drives);
+            findings.grown = grounds;
+        }
+        self.conclude(&findings)
+    }
+
+    /// Runs of a job with the seeds from 0 on.
+    fn runs(&self, job: &Job, n_seeds: u64) -> Result<Vec<(Drive, Exhibit)>> {
+        pool::map(self.n_jobs, n_seeds as usize, |seed| job.run(seed as u64))
+    }
+
+    /// All methods on the built-in neighborhood: timed, then watched by generation.
+    fn compare(&self, findings: &mut Findings, tell: &mut dyn FnMut(&str)) -> Result<()> {
+        let route = (&self.ground, shortest_m(&self.ground));
+        for method in &self.methods {
+            let variant = Variant::of(method.planner);
+            let job = job(COMPARISON, route, &variant, method.native);
+            tell(&format!("{}: {}", self.ground.map, variant.name));
+            let mut first = None;
+            for (drive, exhibit) in self.runs(&job, self.scale.n_seeds)? {
+                findings.drives.push(drive);
+                first.get_or_insert(exhibit);
+            }
+            let Some(exhibit) = first else {
+                continue;
+            };
+            tell(&format!(
+                "{}: {}, by generation",
+                self.ground.map, variant.name
+            ));
+            let course = generations::watch(job, method.generations, &exhibit, self.scale.n_runs)?;
+            findings.courses.extend(course);
+            findings.exhibits.push(exhibit);
+        }
+        Ok(())
+    }
+
+    fn switch_terms_off(&self, findings: &mut Findings, tell: &mut dyn FnMut(&str)) -> Result<()> {
+        let route = (&self.ground, shortest_m(&self.ground));
+        for variant in &self.ablation {
+            tell(&format!("{}: {}", self.ground.map, variant.name));
+            let job = job(ABLATION, route, variant, Native::Nodes);
+            let runs = self.runs(&job, self.scale.n_seeds)?;
+            findings.drives.extend(runs.into_iter().map(|run| run.0));
+        }
+        Ok(())
+    }
+
+    fn conclude(&self, findings: &Findings) -> Result<Reproduction> {
+        let hood = self.hood.as_deref().unwrap_or_default();
+        let variants: Vec<Variant> = self
+            .methods
+            .iter()
+            .map(|m| Variant::of(m.planner))
+            .collect();
+        let of_methods = variants.iter().chain(&self.ablation);
+        Ok(Reproduction {
+            report: self.report(findings)?,
+            csv: csv(&findings.drives)?,
+            courses_csv: String::new(),
+            ompl_logs: Vec::new(),
+            n_runs: findings.drives.len(),
+            facts: [
+                facts_of(std::slice::from_ref(&self.ground)),
+                facts_of(hood),
+                facts_of(&findings.grown),
+                self.seeds(),
+            ]
+            .concat(),
+            configs: configs_of(of_methods.map(|variant| (&self.ground, variant)))?,
+        })
+    }
+
+    fn seeds(&self) -> Vec<Fact> {
+        let (n_runs, n_seeds) = (seeds(self.scale.n_runs), seeds(self.scale.n_seeds));
+        let words = format!("{n_seeds}; costs by generation and the second neighborhood: {n_runs}");
+        vec![Fact::new("Seeds", words), at_a_time(self.n_jobs)]
+    }
+
+    fn report(&self, findings: &Findings) -> Result<Report> {
+        let comparison = Comparison {
+            drives: &findings.drives,
+            methods: &self.methods,
+            ground: &self.ground.map,
+        };
+        let names: Vec<&str> = self.methods.iter().map(|m| m.planner.name()).collect();
+        let claims = claims::claims(&findings.drives, &names, &self.ground.map);
+        let mut sections = vec![
+            claims.verdicts(),
+            of_tables(
+                "Length, success and time: Table 1",
+                vec![comparison.lengths(), comparison.times()],
+            ),
+            of_tables(
+                "Turns: Table 2",
+                vec![
+                    comparison.native_shares(),
+                    comparison.curve_shares(),
+                    comparison.smoothness(),
+                ],
+            ),
+        ];
+        sections[1].blocks.push(Block::Text(paper::remark()));
+        sections.push(pictures::spreads(
+            &findings.drives,
+            &names,
+            &self.ground.map,
+        ));
+        sections.extend(self.figures(findings));
+        sections.extend(self.of_proposed(findings));
+        sections.push(self.of_hood(findings));
+        sections.push(claims.tests());
+        if let Some(subject) = scaling::subject(&self.methods) {
+            let own = Variant::of(subject.planner);
+            sections.push(parameters::section(parameters::LI2024, &own)?);
+        }
+        sections.push(correspondence::section(&PLACES));
+        Ok(Report {
+            name: "li2024".to_owned(),
+            title: "Li et al. 2024: FACO and its rivals".to_owned(),
+            intro: self.intro(),
+            sections,
+        })
+    }
+
+    fn intro(&self) -> String {
+        format!(
+            "All methods drive the route of `{}`, {:.1} m over cells, with the 1 m wide `lei2020` \
+             vehicle: start heading exact, goal heading any, {} runs per method. `certified` \
+             counts runs whose path the judge certified for the whole swept body; everything else \
+             counts as a failure. The paper's numbers are those of MATLAB on an i7-6500U, on a map \
+             of its own, ten runs per method. `astar` and `improved-astar` do not use the seed.",
+            self.ground.map,
+            shortest_m(&self.ground).unwrap_or_default(),
+            self.scale.n_seeds
+        )
+    }
+
+    /// What concerns the proposed method alone; nothing if this build does not know it.
+    fn of_proposed(&self, findings: &Findings) -> Vec<Section> {
+        let Some(subject) = scaling::subject(&self.methods) else {
+            return Vec::new();
+        };
+        let best = best::table(&findings.drives, &self.methods, &self.ground.map);
+        let growth = scaling::table(&findings.drives, subject.planner.name());
+        vec![
+            Section::of_table("Beside the best of the others", best),
+            ablation::section(&findings.drives, &self.ablation),
+            Section::of_table("Growing maps", growth),
+        ]
+    }
+
+    fn of_hood(&self, findings: &Findings) -> Section {
+        let block = match &self.hood {
+            Ok(_) => Block::Table(over_scenarios(&findings.drives, &self.methods, HOOD)),
+            Err(path) => Block::Text(format!(
+                "Left out: there is no `{}`. It comes with the data sets; `--data` names their \
+                 folder.",
+                path.display()
+            )),
+        };
+        Section {
+            heading: "A second neighborhood: hood_800x500".to_owned(),
+            blocks: vec![block],
+        }
+    }
+
+    fn figures(&self, findings: &Findings) -> Vec<Section> {
+        let part = figures::surroundings(&self.ground, &findings.exhibits);
+        let paths = findings.exhibits.iter();
+        let paths = paths.map(|exhibit| figures::path_figure(&self.ground, exhibit, part));
+        let mut sections = vec![
+            pictures::map(&self.ground, &findings.exhibits, part),
+            Section {
+                heading: "Paths: figures 5 to 11".to_owned(),
+                blocks: paths.map(Block::Figure).collect(),
+            },
+        ];
+        if !findings.courses.is_empty() {
+            let figure = Figure {
+                caption: "Mean cost J of each generation, and the lowest so far, which the paper \
+                          shows in figure 12: medians over the seeds, and quartiles as bands. A \
+                          run that stopped keeps its last values."
+                    .to_owned(),
+                svg: generations::picture(&findings.courses).to_svg(),
+            };
+            sections.push(Section {
+                heading: "Cost by generation: figure 12".to_owned(),
+                blocks: vec![
+                    Block::Figure(figure),
+                    Block::Bands(generations::bands(&findings.courses)),
+                ],
+            });
+        }
+        sections
+    }
+}
+
+fn job<'a>(
+    part: &'static str,
+    (ground, shortest_m): (&'a Ground, Option<f64>),
+    variant: &'a Variant,
+    native: Native,
+) -> Job<'a> {
+    Job {
+        part,
+        ground,
+        variant,
+        native,
+        shortest_m,
+    }
+}
+
+fn of_tables(heading: &str, tables: Vec<crate::report::Table>) -> Section {
+    Section {
+        heading: heading.to_owned(),
+        blocks: tables.into_iter().map(Block::Table).collect(),
+    }
+}
+
+const PLACES: [Place; 14] = [
+    [
+        "Figure 1",
+        NOT_MADE,
+        "concept drawing: wheels, suspension and the turning circle",
+    ],
+    [
+        "Figure 2",
+        NOT_MADE,
+        "concept drawing: a footprint with its margin",
+    ],
+    [
+        "Figure 3",
+        NOT_MADE,
+        "concept drawing: turns between points of a path",
+    ],
+    [
+        "Figure 4",
+        "Map: figure 4",
+        "(a), (c) and (d) are photographs; of (b), the map, ours has the same size",
+    ],
+    ["Figure 5", "Paths: figures 5 to 11", "astar"],
+    ["Figure 6", "Paths: figures 5 to 11", "improved-astar"],
+    ["Figure 7", "Paths: figures 5 to 11", "ga"],
+    ["Figure 8", "Paths: figures 5 to 11", "aga"],
+    ["Figure 9", "Paths: figures 5 to 11", "aco"],
+    ["Figure 10", "Paths: figures 5 to 11", "acof"],
+    ["Figure 11", "Paths: figures 5 to 11", "faco2024"],
+    [
+        "Figure 12",
+        "Cost by generation: figure 12",
+        "mean and lowest J, and the lowest by paths tried and time",
+    ],
+    [
+        "Table 1",
+        "Length, success and time: Table 1",
+        "31 runs per method, not ten",
+    ],
+    [
+        "Table 2",
+        "Turns: Table 2",
+        "on the vertices of each method, and on equal steps of the certified curve",
+    ],
+];
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,168 @@
+//! Parameter sheets from the tables of the library's `references`.
+
+use crate::papers::experiment::Variant;
+use crate::report::{Block, Known, ParameterSheet, Section, Source};
+use anyhow::Result;
+
+pub(crate) const LEI2020: &str = include_str!("../../../formicar/references/lei2020.md");
+pub(crate) const WANG2019: &str = include_str!("../../../formicar/references/wang2019.md");
+pub(crate) const LI2024: &str = include_str!("../../../formicar/references/li2024.md");
+
+/// The configuration of a variant, each parameter with its origin as the reference of its paper
+/// states it.
+pub(crate) fn section(reference: &str, variant: &Variant) -> Result<Section> {
+    let config = serde_json::to_value(&variant.config)?;
+    let known = known(reference);
+    let parts: Vec<&str> = known
+        .iter()
+        .filter_map(|known| known.0.split('.').next())
+        .collect();
+    let sheet = ParameterSheet::new(&config, &parts, &known);
+    Ok(Section {
+        heading: "Parameters".to_owned(),
+        blocks: vec![Block::Table(sheet.table("parameters"))],
+    })
+}
+
+/// Where the parameters of a planner's preset come from, as the references tell: its own table,
+/// then those of the presets that it is made from.
+pub(crate) struct Origins {
+    tables: Vec<(String, Vec<Known<'static>>)>,
+}
+
+impl Origins {
+    /// Of a planner; those without a reference have no tables.
+    pub(crate) fn of(planner: &str) -> Self {
+        let (mut tables, mut next) = (Vec::new(), Some(planner));
+        while let Some(name) = next {
+            let Some((base, rows)) = table_of(name) else {
+                break;
+            };
+            tables.push((name.to_owned(), rows));
+            next = base;
+        }
+        Self { tables }
+    }
+
+    /// The origin of a parameter as the preset has it, and the place in the paper or the reason.
+    /// What is taken over from another preset is our choice.
+    pub(crate) fn of_key(&self, key: &str) -> (Source, String) {
+        let mut rows = self
+            .tables
+            .iter()
+            .enumerate()
+            .flat_map(|(i, (name, rows))| rows.iter().map(move |row| (i, name, row)));
+        match rows.find(|(.., row)| row.0 == key) {
+            Some((0, _, (_, source, from))) => (*source, (*from).to_owned()),
+            Some((_, name, (_, source, from))) => {
+                let words = format!("as `{name}` ({}: {from})", source.name());
+                (Source::Chosen, words)
+            }
+            None => (Source::Chosen, String::new()),
+        }
+    }
+}
+
+/// The table of a preset, and the preset of which it tells the differences.
+fn table_of(preset: &str) -> Option<(Option<&'static str>, Vec<Known<'static>>)> {
+    let (whole, part) = (
+        format!("## Parameters of `{preset}`"),
+        format!("### `{preset}`, from `"),
+    );
+    let pages = [LEI2020, WANG2019, LI2024].into_iter();
+    let mut headings =
+        pages.flat_map(|page| page.match_indices("\n##").map(|(at, _)| &page[at + 1..]));
+    headings.find_map(|rest| {
+        let heading = rest.lines().next()?;
+        let base = heading
+            .strip_prefix(&part)
+            .map(|base| base.trim_matches('`'));
+        let is_it = base.is_some() || heading == whole;
+        is_it.then(|| (base, known(rest)))
+    })
+}
+
+/// The rows of the first table of parameters: `| key | value | origin | from |`.
+fn known(reference: &str) -> Vec<Known<'_>> {
+    let lines = reference.lines();
+    let rows = lines.skip_while(|line| row(line).is_none());
+    rows.map_while(row).collect()
+}
+
+fn row(line: &str) -> Option<Known<'_>> {
+    let fields: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
+    let [key, _, origin, from] = fields[..] else {
+        return None;
+    };
+    let source = match origin {
+        "stated" => Source::Stated,
+        "read" => Source::Read,
+        "chosen" => Source::Chosen,
+        "tuned" => Source::Tuned,
+        _ => return None,
+    };
+    Some((key.trim_matches('`'), source, from))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::leaves;
+    use formicar::planner::PlannerName;
+
+    #[test]
+    fn what_a_preset_takes_over_is_chosen() {
+        let of = |planner: &str, key: &str| Origins::of(planner).of_key(key);
+        let (source, from) = of("lei2020", "colony.n_ants");
+        assert_eq!((source, &from[..9]), (Source::Stated, "sec. IV.B"));
+        assert_eq!(
+            of("acof", "colony.initial.rule"),
+            (Source::Stated, "(21)".to_owned())
+        );
+        let (source, from) = of("acof", "colony.alpha");
+        assert_eq!(source, Source::Chosen);
+        assert_eq!(from, "as `lei2020` (stated: sec. IV.B)");
+        let (source, from) = of("acof", "colony.n_iterations");
+        assert_eq!(
+            (source, from.as_str()),
+            (Source::Chosen, "as `aco` (stated: sec. 5, N_max)")
+        );
+        assert_eq!(of("astar", "colony.alpha"), (Source::Chosen, String::new()));
+    }
+
+    #[test]
+    fn every_parameter_of_a_colony_has_an_origin() {
+        for planner in PlannerName::ALL
+            .into_iter()
+            .filter(|planner| planner.has_ants())
+        {
+            let config = serde_json::to_value(Variant::of(planner).config).unwrap();
+            let origins = Origins::of(planner.name());
+            for (key, _) in leaves(&config)
+                .into_iter()
+                .filter(|(key, _)| key != "planner")
+            {
+                let (_, from) = origins.of_key(&key);
+                assert!(!from.is_empty(), "{planner:?}: {key}");
+            }
+        }
+    }
+
+    #[test]
+    fn references_know_every_parameter() {
+        for (reference, planner, n_least) in [
+            (LEI2020, PlannerName::Lei2020, 40),
+            (WANG2019, PlannerName::Wang2019, 35),
+            (LI2024, PlannerName::Faco2024, 40),
+        ] {
+            let known = known(reference);
+            assert!(known.len() >= n_least, "{planner:?}: {}", known.len());
+            let config = serde_json::to_value(Variant::of(planner).config).unwrap();
+            let mut sheet = ParameterSheet::new(&config, &["colony", "chords", "layers"], &known);
+            sheet
+                .parameters
+                .retain(|parameter| parameter.note.is_empty());
+            assert_eq!(sheet.parameters, [], "{planner:?}");
+        }
+    }
+}

@@ -1,0 +1,74 @@
+//! One query under one value of a quantity, measured.
+
+use super::axes::{Point, Quantity};
+use crate::analysis::statistics::quartiles;
+use crate::papers::experiment::{Scale, Variant};
+use anyhow::Result;
+use formicar::numeric::Seed;
+use formicar::planner::{Outcome, Planner};
+use serde::Serialize;
+use std::time::Instant;
+
+/// What a query came to; times are medians over its repetitions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(super) struct Sample {
+    pub(super) quantity: &'static str,
+    pub(super) x: f64,
+    pub(super) planner: String,
+    pub(super) seed: u64,
+    pub(super) is_solved: bool,
+    /// Map and vehicle made ready.
+    pub(super) setup_ms: f64,
+    /// The query of a warm planner.
+    pub(super) query_ms: f64,
+    pub(super) steps: u64,
+}
+
+impl Sample {
+    /// Runs a planner at a point: once to warm it up, then as often as the scale says, slow queries
+    /// less often.
+    pub(super) fn run(
+        quantity: Quantity,
+        point: &Point,
+        variant: &Variant,
+        (seed, scale): (u64, Scale),
+    ) -> Result<Self> {
+        let (ground, config) = (&point.ground, variant.config.clone());
+        let begun = Instant::now();
+        let planner = Planner::new(&ground.grid, ground.vehicle.clone(), config)?;
+        let setup_ms = elapsed_ms(begun);
+        let mut planner = planner.with_threads(point.n_threads);
+        let mut outcome = planner.plan(&ground.request, Seed(seed), &mut ())?;
+        let mut times_ms = Vec::new();
+        let n_timings = scale.n_timings.min(MAX_TIMINGS);
+        while times_ms.len() < n_timings && times_ms.iter().sum::<f64>() < ENOUGH_MS {
+            let begun = Instant::now();
+            outcome = planner.plan(&ground.request, Seed(seed), &mut ())?;
+            times_ms.push(elapsed_ms(begun));
+        }
+        let [_, query_ms, _] = quartiles(&times_ms).unwrap_or_default();
+        let (is_solved, steps) = match &outcome {
+            Outcome::Found(plan) => (true, plan.n_steps),
+            Outcome::NotFound(failure) => (false, failure.n_steps),
+        };
+        Ok(Self {
+            quantity: quantity.key(),
+            x: point.x,
+            planner: variant.name.clone(),
+            seed,
+            is_solved,
+            setup_ms,
+            query_ms,
+            steps,
+        })
+    }
+}
+
+/// Repetitions at most.
+const MAX_TIMINGS: usize = 3;
+/// Time after which a query is not repeated.
+const ENOUGH_MS: f64 = 3000.0;
+
+fn elapsed_ms(since: Instant) -> f64 {
+    since.elapsed().as_secs_f64() * 1e3
+}

@@ -1,0 +1,165 @@
+//! Both calculations of the adjacency, timed: Table 1 and figure 9.
+
+use crate::analysis::statistics::quartiles;
+use crate::papers::claims::{Claim, Comparison, Expected};
+use crate::papers::experiment::Scale;
+use crate::report::{BandPanel, Bands, Block, Course, Field, ScaleKind, Section, Table};
+use anyhow::Result;
+use formicar::colony::Adjacency;
+use formicar::map::generate::{ScatterParameters, scattered_obstacles};
+use formicar::map::{BitGrid, DiagonalRule, MoveMasks};
+use formicar::numeric::Seed;
+use std::hint::black_box;
+use std::time::Instant;
+
+/// Sides of the maps on which adjacencies are timed, as in figure 9.
+const SIDES: [usize; 6] = [10, 20, 30, 40, 60, 80];
+/// The side in Table 1.
+const SIDE: usize = 20;
+/// Means of Table 1, milliseconds: global and analytical.
+const PAPER_MS: [f64; 2] = [3.7, 0.877_34];
+
+/// Times on one map, milliseconds.
+pub(super) struct Timing {
+    side: usize,
+    global: Vec<f64>,
+    analytical: Vec<f64>,
+    masks: Vec<f64>,
+}
+
+/// Times both calculations, and the move masks that are used instead, on maps of all sizes.
+pub(super) fn measure(scale: Scale) -> Result<Vec<Timing>> {
+    let rule = DiagonalRule::AtMostOneObstacle;
+    let of_side = |&side: &usize| {
+        let blocked = scattered(side)?;
+        Ok(Timing {
+            side,
+            global: times_ms(scale, || drop(black_box(Adjacency::global(&blocked, rule)))),
+            analytical: times_ms(scale, || {
+                drop(black_box(Adjacency::analytical(&blocked, rule)));
+            }),
+            masks: times_ms(scale, || drop(black_box(MoveMasks::new(&blocked, rule)))),
+        })
+    };
+    SIDES.iter().map(of_side).collect()
+}
+
+/// A square map with about a fifth of its cells occupied.
+fn scattered(side: usize) -> Result<BitGrid> {
+    let parameters = ScatterParameters {
+        n_cols: side,
+        n_rows: side,
+        density: 0.2,
+        ..ScatterParameters::default()
+    };
+    Ok(scattered_obstacles(&parameters, Seed(1))?.lethal_cells())
+}
+
+/// Times after one that is not counted.
+fn times_ms(scale: Scale, mut work: impl FnMut()) -> Vec<f64> {
+    work();
+    let time = |_| {
+        let begun = Instant::now();
+        work();
+        begun.elapsed().as_secs_f64() * 1e3
+    };
+    (0..scale.n_timings).map(time).collect()
+}
+
+/// Table 1 and figure 9.
+pub(super) fn section(timings: &[Timing]) -> Section {
+    Section {
+        heading: "Adjacency: Table 1 and figure 9".to_owned(),
+        blocks: vec![Block::Table(table(timings)), Block::Bands(figure(timings))],
+    }
+}
+
+fn table(timings: &[Timing]) -> Table {
+    let caption = "Table 1 of the paper, a map of 20 x 20, beside ours, and further sizes of \
+                   figure 9: milliseconds, medians with quartiles of repeated calculations. The \
+                   global calculation looks at all pairs of cells, the analytical one at neighbors. \
+                   `move masks` are what the colonies here use instead.";
+    let mut table = Table::new(
+        "adjacency",
+        &[
+            "map",
+            "global ms",
+            "paper's ms",
+            "analytical ms",
+            "paper's, ms",
+            "ratio",
+            "paper's ratio",
+            "move masks ms",
+        ],
+    )
+    .captioned(caption);
+    for timing in timings {
+        let [global, analytical, masks] =
+            [&timing.global, &timing.analytical, &timing.masks].map(|times| quartiles(times));
+        let paper = |value: f64, n| Field::Number((timing.side == SIDE).then_some(value), n);
+        let ratio = global.zip(analytical).map(|(a, b)| a[1] / b[1]);
+        table.row(vec![
+            Field::Words(format!("{0} x {0}", timing.side)),
+            Field::Spread(global, 4),
+            paper(PAPER_MS[0], 4),
+            Field::Spread(analytical, 4),
+            paper(PAPER_MS[1], 4),
+            Field::Number(ratio, 1),
+            paper(PAPER_MS[0] / PAPER_MS[1], 1),
+            Field::Spread(masks, 5),
+        ]);
+    }
+    table
+}
+
+/// Figure 9.
+fn figure(timings: &[Timing]) -> Bands {
+    let course = |name: &str, of: fn(&Timing) -> &Vec<f64>| Course {
+        name: name.to_owned(),
+        points: timings
+            .iter()
+            .filter_map(|timing| {
+                let [low, median, high] = quartiles(of(timing))?;
+                Some([(timing.side * timing.side) as f64, low, median, high])
+            })
+            .collect(),
+    };
+    Bands {
+        caption: "Figure 9: time of both calculations over the size of the map, both axes \
+                  logarithmic, so that the slope is the exponent: about 2 for all pairs of cells, 1 \
+                  for neighbors."
+            .to_owned(),
+        quantity: "time, ms".to_owned(),
+        y_scale: ScaleKind::Log,
+        panels: vec![BandPanel {
+            x: "cells".to_owned(),
+            x_scale: ScaleKind::Log,
+            courses: vec![
+                course("global", |timing| &timing.global),
+                course("analytical", |timing| &timing.analytical),
+                course("move masks", |timing| &timing.masks),
+            ],
+        }],
+    }
+}
+
+/// What the paper says of both.
+pub(super) fn claim(timings: &[Timing]) -> Claim {
+    let compare = |timing: &Timing| Comparison {
+        name: format!("{0} x {0}, analytical - global", timing.side),
+        quantity: "time, ms".to_owned(),
+        n_decimals: 4,
+        pairs: timing
+            .analytical
+            .iter()
+            .zip(&timing.global)
+            .map(|(&analytical, &global)| [analytical, global])
+            .collect(),
+        expected: Expected::Less,
+    };
+    Claim::paired(
+        "The analytical adjacency takes less time than the global one",
+        ("Table 1, fig. 9", "0.00088 : 0.0037 s at 20 x 20"),
+        timings.iter().map(compare).collect(),
+    )
+}

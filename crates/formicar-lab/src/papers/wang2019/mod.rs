@@ -1,0 +1,196 @@
+//! Wang et al. 2019: narrow aisles, convergence, and the cost of the adjacency.
+
+mod adjacency;
+mod claims;
+mod steps;
+
+use crate::analysis::statistics::{quantile, quartiles};
+use crate::papers::correspondence::{self, NOT_MADE, Place};
+use crate::papers::exhibit::{Exhibit, Line, overlay};
+use crate::papers::experiment::{Ground, Setup, Variant, run_all};
+use crate::papers::parameters;
+use crate::papers::reproduction::Reproduction;
+use crate::papers::trial::Trial;
+use crate::papers::trials::{Measure, Runs};
+use crate::report::{Block, Field, Report, Section, Table};
+use anyhow::Result;
+use formicar::colony::heuristic::{Guidance, StepLength, Visibility};
+use formicar::layers::Expansion;
+use formicar::map::DiagonalRule;
+use formicar::planner::{PlannerConfig, PlannerName};
+
+/// The maps with the figure that each stands for: narrow aisles, none, and the matrix that
+/// circulates.
+const MAPS: [(&str, &str); 3] = [("wang-aisles", "6"), ("wang-open", "7"), ("aco20", "8")];
+
+/// The paper's colony and those of its references 7 and 11.
+const PROPOSED: &str = "wang2019";
+const ZHANG: &str = "zhang2016";
+const JOSHY: &str = "joshy2016";
+const COLONIES: [&str; 3] = [ZHANG, JOSHY, PROPOSED];
+
+/// Runs the colony and those it is compared with, and times both calculations of the adjacency.
+///
+/// # Errors
+/// None that is expected: maps and configurations are built in.
+pub fn wang2019(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproduction> {
+    let grounds = MAPS.map(|(map, _)| Ground::builtin(map));
+    let grounds = grounds.into_iter().collect::<Result<Vec<_>>>()?;
+    let runs = run_all(&grounds, |_| variants(), setup, tell)?;
+    tell("adjacency timing");
+    let timings = adjacency::measure(setup.scale)?;
+    let all = Runs(&runs);
+    let claims = claims::claims(all, &timings);
+    let mut sections = vec![claims.verdicts()];
+    for ((map, figure), ground) in MAPS.iter().zip(&grounds) {
+        sections.push(of_map((map, figure), ground, all)?);
+    }
+    sections.push(adjacency::section(&timings));
+    sections.push(steps::section());
+    sections.push(claims.tests());
+    sections.push(parameters::section(
+        parameters::WANG2019,
+        &Variant::of(PlannerName::Wang2019),
+    )?);
+    sections.push(correspondence::section(&PLACES));
+    let report = Report {
+        name: "wang2019".to_owned(),
+        title: "Wang et al. 2019: aisles, convergence, adjacency".to_owned(),
+        intro: "Lengths in cells, a diagonal step counting the square root of 2; medians with \
+                quartiles. `squeezes` are diagonal steps between two obstacles that meet at a \
+                corner: runs with any. `to best` is the iteration that found the best way, `to 1 \
+                %` the one that found a way at most 1 % dearer. `zhang2016` and `joshy2016` are the \
+                paper's references 7 and 11. The paper's maps exist only as pictures: ours have the \
+                same 20 x 20 cells, with narrow aisles, without, and the matrix that circulates in \
+                code for this problem."
+            .to_owned(),
+        sections,
+    };
+    Reproduction::of_runs(report, &runs, (&grounds, |_| variants()), setup)
+}
+
+fn variants() -> Vec<Variant> {
+    let changed = |planner: PlannerName, what: &str, change: fn(&mut PlannerConfig)| {
+        Variant::changed(planner, what, change)
+    };
+    vec![
+        Variant::of(PlannerName::Wang2019),
+        Variant::of(PlannerName::Zhang2016),
+        changed(PlannerName::Zhang2016, "obstacles grown by 1", |c| {
+            c.layers.expansion = Expansion::Cells(1);
+        }),
+        Variant::of(PlannerName::Joshy2016),
+        changed(PlannerName::Wang2019, "without goal guidance", |c| {
+            c.colony.guidance = Guidance::None;
+        }),
+        changed(PlannerName::Wang2019, "visibility to the letter", |c| {
+            c.colony.visibility = Visibility::StepLength(StepLength { beta: 7.0 });
+        }),
+        changed(PlannerName::Wang2019, "no corner cut", |c| {
+            c.colony.diagonal_rule = DiagonalRule::NoObstacles;
+        }),
+    ]
+}
+
+/// Paths, convergence and numbers on one map.
+fn of_map((map, figure): (&str, &str), ground: &Ground, runs: Runs) -> Result<Section> {
+    let plain = variants().into_iter();
+    let plain = plain.filter(|variant| COLONIES.contains(&variant.name.as_str()));
+    let mut exhibits = Vec::new();
+    for variant in plain {
+        exhibits.push(Exhibit::new(ground, &variant)?);
+    }
+    exhibits.sort_by_key(|exhibit| exhibit.variant == PROPOSED);
+    let caption = format!(
+        "Figure {figure}(a) on `{map}`, seed 0: the ways of the three colonies from cell to cell."
+    );
+    let paths = overlay(ground, (&exhibits, Line::Cells), &caption);
+    let caption = format!(
+        "Figure {figure}(b) on `{map}`: length of the best way so far, medians and quartiles over \
+         the seeds, by iteration, by ants sent out and by time since the colony set out. A line \
+         begins where three quarters of the runs have a way."
+    );
+    let convergence = runs.convergence(map, &COLONIES, &caption);
+    let caption = format!("`{map}`: length of the best way of each run by variant.");
+    let lengths = runs.boxes(map, (&caption, "length, cells"), |trial| trial.length_cells);
+    Ok(Section {
+        heading: format!("{map}: figure {figure}"),
+        blocks: vec![
+            Block::Table(table(map, runs)),
+            Block::Figure(paths),
+            Block::Bands(convergence),
+            Block::BoxPlot(lengths),
+        ],
+    })
+}
+
+fn table(map: &str, runs: Runs) -> Table {
+    let mut table = Table::new(
+        map,
+        &[
+            "variant",
+            "arrived",
+            "squeezes",
+            "length",
+            "/ optimum",
+            "to best",
+            "to 1 %",
+            "ms",
+        ],
+    );
+    for name in runs.variants(map) {
+        let own = runs.trials(map, name);
+        let values = |of: Measure| runs.values(map, name, of);
+        let number = |of: Measure, n| Field::Number(quantile(&values(of), 0.5), n);
+        let count = |is: fn(&Trial) -> bool| own.iter().filter(|trial| is(trial)).count();
+        let n_squeezing = count(|t| t.n_squeezes.is_some_and(|n| n > 0));
+        table.row(vec![
+            Field::words(name),
+            Field::Count(count(|trial| trial.arrived), own.len()),
+            Field::Number(Some(n_squeezing as f64), 0),
+            Field::Spread(quartiles(&values(|trial| trial.length_cells)), 1),
+            number(|t| Some(t.length_cells? / t.optimum_cells?), 3),
+            number(|trial| Some(f64::from(trial.n_to_best?)), 0),
+            number(|trial| Some(f64::from(trial.n_to_1_percent?)), 0),
+            number(|trial| Some(trial.query_ms), 1),
+        ]);
+    }
+    table
+}
+
+const PLACES: [Place; 10] = [
+    [
+        "Figure 1",
+        "Steps past obstacles",
+        "which diagonal steps the three rules allow in the distributions A to D",
+    ],
+    [
+        "Figure 2",
+        "Steps past obstacles",
+        "neighbors in the nine positions on a map",
+    ],
+    [
+        "Figure 3",
+        NOT_MADE,
+        "concept drawing: distances between cells, 1 and the square root of 2",
+    ],
+    [
+        "Figure 4",
+        NOT_MADE,
+        "concept drawing: the eight cells around an ant",
+    ],
+    ["Figure 5", NOT_MADE, "flowchart"],
+    [
+        "Figure 6",
+        "wang-aisles",
+        "paths (a) and convergence (b) with narrow aisles",
+    ],
+    [
+        "Figure 7",
+        "wang-open",
+        "paths (a) and convergence (b) without narrow aisles",
+    ],
+    ["Figure 8", "aco20", "paths (a) and convergence (b)"],
+    ["Figure 9", "Adjacency", "time over size, both calculations"],
+    ["Table 1", "Adjacency", "time at 20 x 20, both calculations"],
+];

@@ -1,0 +1,3 @@
+//! Runs of planners: how they are spread over threads.
+
+pub(crate) mod pool;
