@@ -9,6 +9,6 @@ pub mod campaign;
 pub mod papers;
 pub mod report;
 pub mod rival;
-mod run;
+pub mod run;
 pub mod stress;
 pub mod tuning;

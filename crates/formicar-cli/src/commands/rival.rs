@@ -1,11 +1,11 @@
 //! Rivals that this program is itself, and what starts the others.
 
-use super::bench::end_with_parent;
 use crate::failure::{Ending, Failure};
 use crate::files;
 use anyhow::{Context, anyhow};
 use clap::ValueEnum;
 use formicar_lab::rival::{Question, pathfinding_answer};
+use formicar_lab::run::usage::end_with_parent;
 use std::io::Write;
 use std::path::Path;
 

@@ -59,7 +59,7 @@ pub(crate) fn run(args: &StressArgs, out: &mut impl Write) -> Result<Ending, Fai
         config: config.for_motion(formicar::vehicle::Motion::Car),
     };
     let bar = progress_bar(args.n);
-    let report = stress.run(&|n_done| bar.set_position(n_done));
+    let report = stress.run(&mut |n_done| bar.set_position(n_done as u64));
     bar.finish_and_clear();
     write_report(args, &report, out)?;
     Ok(match report.n_violations() {

@@ -1,3 +1,7 @@
-//! Runs of planners: how they are spread over threads.
+//! Runs of planners: how a query is measured, and how runs are spread over threads.
 
-pub(crate) mod pool;
+mod measure;
+pub mod pool;
+pub mod usage;
+
+pub use measure::{Improvement, Measured, TimedIteration, measure};

@@ -1,62 +1,116 @@
 //! Independent pieces of work on several threads.
 
-use anyhow::Result;
-use std::sync::Mutex;
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+use std::thread;
 
-/// What each of `0..n` comes to, in that order, on up to `n_jobs` threads. What fails first by
-/// number is the error.
-pub(crate) fn map<T: Send>(
+/// Works on `0..n` with up to `n_jobs` threads and hands every result over as it arrives, with its
+/// number. Nothing new is begun after `on_done` fails.
+///
+/// # Errors
+/// The first failure of `on_done`.
+pub fn each<T: Send, E>(
     n_jobs: usize,
     n: usize,
-    work: impl Fn(usize) -> Result<T> + Sync,
-) -> Result<Vec<T>> {
+    work: impl Fn(usize) -> T + Sync,
+    mut on_done: impl FnMut(usize, T) -> Result<(), E>,
+) -> Result<(), E> {
     if n_jobs <= 1 || n <= 1 {
-        return (0..n).map(work).collect();
+        return (0..n).try_for_each(|i| on_done(i, work(i)));
     }
     let next = AtomicUsize::new(0);
-    let slots: Vec<Mutex<Option<Result<T>>>> = (0..n).map(|_| Mutex::new(None)).collect();
-    let work_off = || {
-        while let Some(slot) = take(&next, &slots) {
-            let done = work(slot.0);
-            if let Ok(mut place) = slot.1.lock() {
-                *place = Some(done);
-            }
-        }
-    };
-    std::thread::scope(|scope| {
+    thread::scope(|scope| {
+        let (sender, results) = mpsc::channel();
         for _ in 0..n_jobs.min(n) {
-            scope.spawn(work_off);
+            let (sender, next, work) = (sender.clone(), &next, &work);
+            scope.spawn(move || {
+                let take = || Some(next.fetch_add(1, Ordering::Relaxed)).filter(|i| *i < n);
+                // The receiver is gone after a failure.
+                std::iter::from_fn(take).all(|i| sender.send((i, work(i))).is_ok())
+            });
         }
-    });
-    let done = slots.into_iter().map(|slot| {
-        let slot = slot.into_inner().unwrap_or_default();
-        slot.unwrap_or_else(|| Err(anyhow::anyhow!("a thread ended before its work")))
-    });
-    done.collect()
+        drop(sender);
+        results
+            .into_iter()
+            .try_for_each(|(i, result)| on_done(i, result))
+    })
 }
 
-/// The next piece that nobody has taken, and its number.
-fn take<'a, T>(next: &AtomicUsize, slots: &'a [T]) -> Option<(usize, &'a T)> {
-    let i = next.fetch_add(1, Ordering::Relaxed);
-    Some((i, slots.get(i)?))
+/// Like [`each`], but results are handed over in order.
+///
+/// # Errors
+/// The first failure of `on_done`.
+pub fn in_order<T: Send, E>(
+    n_jobs: usize,
+    n: usize,
+    work: impl Fn(usize) -> T + Sync,
+    mut on_done: impl FnMut(T) -> Result<(), E>,
+) -> Result<(), E> {
+    let (mut waiting, mut n_done) = (BTreeMap::new(), 0);
+    each(n_jobs, n, work, |i, result| {
+        waiting.insert(i, result);
+        while let Some(result) = waiting.remove(&n_done) {
+            n_done += 1;
+            on_done(result)?;
+        }
+        Ok(())
+    })
+}
+
+/// The results of work on `0..n`, in order.
+///
+/// # Errors
+/// The failure with the lowest number.
+pub fn map<T: Send, E: Send>(
+    n_jobs: usize,
+    n: usize,
+    work: impl Fn(usize) -> Result<T, E> + Sync,
+) -> Result<Vec<T>, E> {
+    let mut all = Vec::with_capacity(n);
+    in_order(n_jobs, n, work, |result| {
+        all.push(result?);
+        Ok(())
+    })?;
+    Ok(all)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use anyhow::{Result, ensure};
 
     #[test]
     fn order_and_errors_do_not_depend_on_threads() {
-        let square = |i: usize| Ok(i * i);
+        let square = |i: usize| anyhow::Ok(i * i);
         assert_eq!(map(1, 9, square).unwrap(), map(3, 9, square).unwrap());
-        let fails = |i: usize| {
-            anyhow::ensure!(i < 4, "{i} is too many");
+        let fails = |i: usize| -> Result<usize> {
+            ensure!(i < 4, "{i} is too many");
             Ok(i)
         };
         for n_jobs in [1, 3] {
             let error = map(n_jobs, 9, fails).unwrap_err();
             assert_eq!(error.to_string(), "4 is too many");
+        }
+    }
+
+    #[test]
+    fn every_result_is_handed_over_once() {
+        for n_jobs in [1, 4] {
+            let mut met = Vec::new();
+            let done = each(
+                n_jobs,
+                20,
+                |i| i,
+                |i, result| {
+                    assert_eq!(i, result);
+                    met.push(i);
+                    anyhow::Ok(())
+                },
+            );
+            done.unwrap();
+            met.sort_unstable();
+            assert_eq!(met, (0..20).collect::<Vec<_>>());
         }
     }
 }

@@ -1,5 +1,5 @@
 //! Random scenarios through a planner and past its judge: nothing may panic, no success may be
-//! uncertified, and every failure tells its reason.
+//! uncertified, and every failure states its reason.
 //!
 //! A scenario is drawn from its own seed alone, so that a single one can be repeated, and nothing
 //! depends on how many run at once.
@@ -13,12 +13,12 @@ mod vehicle;
 
 pub use report::{Case, StressReport};
 
+use crate::run::pool;
 use formicar::planner::PlannerConfig;
+use std::convert::Infallible;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::thread;
 
-/// What is put to the test, and how often.
+/// A planner under test, and the scenarios that are drawn for it.
 #[derive(Clone, Debug)]
 pub struct Stress {
     /// Number of scenarios.
@@ -35,34 +35,18 @@ pub struct Stress {
 
 impl Stress {
     /// Runs all scenarios; `on_done` hears how many are over.
-    pub fn run(&self, on_done: &(dyn Fn(u64) + Sync)) -> StressReport {
-        let (next, n_done) = (AtomicU64::new(0), AtomicU64::new(0));
-        let work = || {
-            let mine = std::iter::from_fn(|| {
-                let i = next.fetch_add(1, Ordering::Relaxed);
-                (i < self.n_scenarios).then_some(self.seed.wrapping_add(i))
-            });
-            let examined = mine.map(|seed| {
-                let case = self.examine(seed);
-                on_done(n_done.fetch_add(1, Ordering::Relaxed) + 1);
-                case
-            });
-            examined.collect::<Vec<_>>()
-        };
-        let mut cases = thread::scope(|scope| {
-            let workers: Vec<_> = (0..self.n_jobs.max(1)).map(|_| scope.spawn(work)).collect();
-            let cases = workers.into_iter().flat_map(|worker| {
-                worker
-                    .join()
-                    .expect("a scenario that panics is caught within its worker")
-            });
-            cases.collect::<Vec<_>>()
+    pub fn run(&self, on_done: &mut dyn FnMut(usize)) -> StressReport {
+        let examine = |i: usize| self.examine(self.seed.wrapping_add(i as u64));
+        let mut cases = Vec::new();
+        let Ok(()) = pool::in_order(self.n_jobs, self.n_scenarios as usize, examine, |case| {
+            cases.push(case);
+            on_done(cases.len());
+            Ok::<_, Infallible>(())
         });
-        cases.sort_by_key(|case| case.seed.wrapping_sub(self.seed));
         StressReport { cases }
     }
 
-    /// One scenario, from its drawing to the word on it.
+    /// Draws one scenario, plans it and examines the result.
     fn examine(&self, seed: u64) -> Case {
         let examined = AssertUnwindSafe(|| {
             let drawn = draw::Drawn::of(seed, self.budget_steps);
@@ -71,7 +55,7 @@ impl Stress {
         catch_unwind(examined).unwrap_or_else(|panic| {
             let text = panic.downcast_ref::<String>().map(String::as_str);
             let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
-            Case::panicked(seed, text.unwrap_or("a panic without words"))
+            Case::panicked(seed, text.unwrap_or("a panic without a message"))
         })
     }
 }
@@ -88,7 +72,7 @@ mod tests {
             n_jobs,
             config: PlannerConfig::default(),
         };
-        stress.run(&|_| ())
+        stress.run(&mut |_| ())
     }
 
     #[test]

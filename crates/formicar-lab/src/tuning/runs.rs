@@ -1,18 +1,17 @@
 //! Runs of a configuration on a scenario.
 
 use crate::papers::experiment::Ground;
+use crate::run::{Improvement, measure, pool};
 use formicar::collision::{Body, ObstacleMap};
 use formicar::geometry::Arc;
 use formicar::numeric::Seed;
 use formicar::objective::{DriveCost, DriveMeter};
 use formicar::planner::{Outcome, Plan, Planner, PlannerConfig};
-use formicar::progress::{Event, Observer};
 use formicar::scenario::Request;
 use formicar::vehicle::Motion;
 use serde::Serialize;
+use std::convert::Infallible;
 use std::ops::Range;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
 
 /// A scenario that is asked: its ground, prepared once.
 #[derive(Clone, Debug)]
@@ -43,18 +42,6 @@ pub struct TunedRun {
     pub steps: Option<u64>,
 }
 
-/// Steps at the first certified path.
-#[derive(Default)]
-struct FirstPath(Option<u64>);
-
-impl Observer for FirstPath {
-    fn on_event(&mut self, event: &Event) {
-        if let Event::Improved { n_steps, .. } = event {
-            self.0.get_or_insert(*n_steps);
-        }
-    }
-}
-
 impl Asked {
     /// Prepares a ground.
     pub fn new(ground: Ground) -> Self {
@@ -77,10 +64,7 @@ impl Asked {
         };
         let vehicle = self.ground.vehicle.clone();
         let asked = Planner::on(self.obstacles.clone(), vehicle, config.clone());
-        let asked = asked.and_then(|mut planner| {
-            let mut observer = FirstPath::default();
-            planner.plan(&request, Seed(0), &mut observer)
-        });
+        let asked = asked.and_then(|mut planner| planner.plan(&request, Seed(0), &mut ()));
         asked.err().map(|error| error.to_string())
     }
 
@@ -92,8 +76,8 @@ impl Asked {
         seeds: Range<u64>,
     ) -> Vec<TunedRun> {
         let vehicle = self.ground.vehicle.clone();
-        let planner = Planner::on(self.obstacles.clone(), vehicle, config.clone());
-        let run = |seed: u64, asked: Result<(Outcome, FirstPath), String>| {
+        let mut planner = Planner::on(self.obstacles.clone(), vehicle, config.clone());
+        let run = |seed: u64| {
             let blank = TunedRun {
                 scenario: self.ground.map.clone(),
                 variant,
@@ -104,28 +88,32 @@ impl Asked {
                 first_steps: None,
                 steps: None,
             };
-            match asked {
-                Ok((outcome, first)) => self.measured(blank, &outcome, &first),
-                Err(status) => TunedRun { status, ..blank },
+            let planner = match &mut planner {
+                Ok(planner) => planner,
+                Err(error) => {
+                    let status = error.to_string();
+                    return TunedRun { status, ..blank };
+                }
+            };
+            let request = &self.ground.request;
+            let measured = measure(&mut (), |watch| planner.plan(request, Seed(seed), watch));
+            match &measured.answer {
+                Ok(outcome) => self.measured(blank, outcome, &measured.improvements),
+                Err(error) => TunedRun {
+                    status: error.to_string(),
+                    ..blank
+                },
             }
         };
-        let mut planner = match planner {
-            Ok(planner) => planner,
-            Err(error) => {
-                let refused = seeds.map(|seed| run(seed, Err(error.to_string())));
-                return refused.collect();
-            }
-        };
-        let runs = seeds.map(|seed| {
-            let mut first = FirstPath::default();
-            let outcome = planner.plan(&self.ground.request, Seed(seed), &mut first);
-            let asked = outcome.map_err(|error| error.to_string());
-            run(seed, asked.map(|outcome| (outcome, first)))
-        });
-        runs.collect()
+        seeds.map(run).collect()
     }
 
-    fn measured(&self, blank: TunedRun, outcome: &Outcome, first: &FirstPath) -> TunedRun {
+    fn measured(
+        &self,
+        blank: TunedRun,
+        outcome: &Outcome,
+        improvements: &[Improvement],
+    ) -> TunedRun {
         let n_steps = outcome.n_steps();
         let run = TunedRun {
             status: outcome.status().name().to_owned(),
@@ -136,7 +124,7 @@ impl Asked {
             Outcome::Found(plan) => TunedRun {
                 cost_m: Some(self.cost_m(plan)),
                 length_m: Some(plan.metrics.length_m),
-                first_steps: Some(first.0.unwrap_or(n_steps)),
+                first_steps: Some(improvements.first().map_or(n_steps, |first| first.steps)),
                 ..run
             },
             Outcome::NotFound(_) => run,
@@ -162,39 +150,21 @@ impl Asked {
     }
 }
 
-/// The runs of each configuration on all scenarios with all seeds, on some threads; the result does
-/// not depend on their number.
+/// The runs of each configuration on all scenarios with all seeds, on some threads; the result does not
+/// depend on their number.
 pub(super) fn run_all(
     configs: &[(&'static str, PlannerConfig)],
     scenarios: &[Asked],
     seeds: &Range<u64>,
     n_jobs: usize,
 ) -> Vec<Vec<Vec<TunedRun>>> {
-    let n_all = configs.len() * scenarios.len();
-    let next = AtomicUsize::new(0);
-    let work = || {
-        let mine = std::iter::from_fn(|| {
-            let i = next.fetch_add(1, Ordering::Relaxed);
-            (i < n_all).then_some(i)
-        });
-        let ran = mine.map(|i| {
-            let (name, config) = &configs[i / scenarios.len()];
-            let runs = scenarios[i % scenarios.len()].run(config, name, seeds.clone());
-            (i, runs)
-        });
-        ran.collect::<Vec<_>>()
+    let n_scenarios = scenarios.len();
+    let run = |i: usize| -> Result<_, Infallible> {
+        let (name, config) = &configs[i / n_scenarios];
+        Ok(scenarios[i % n_scenarios].run(config, name, seeds.clone()))
     };
-    let mut all = thread::scope(|scope| {
-        let workers: Vec<_> = (0..n_jobs.max(1)).map(|_| scope.spawn(work)).collect();
-        let ran = workers.into_iter().flat_map(|worker| {
-            worker
-                .join()
-                .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-        });
-        ran.collect::<Vec<_>>()
-    });
-    all.sort_by_key(|(i, _)| *i);
-    let mut runs = all.into_iter().map(|(_, runs)| runs);
-    let of_config = |_| runs.by_ref().take(scenarios.len()).collect();
+    let Ok(runs) = pool::map(n_jobs, configs.len() * n_scenarios, run);
+    let mut runs = runs.into_iter();
+    let of_config = |_| runs.by_ref().take(n_scenarios).collect();
     configs.iter().map(of_config).collect()
 }

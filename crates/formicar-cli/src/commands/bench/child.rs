@@ -1,6 +1,6 @@
 //! The process of one run: plans, measures itself, and prints its row.
 
-use super::{measure, place, rival, usage};
+use super::{measure, place, rival};
 use crate::commands::plan::{Answered, Session};
 use crate::failure::{Ending, Failure};
 use crate::{ground, settings};
@@ -11,6 +11,7 @@ use formicar::numeric::Seed;
 use formicar::path::{CurvePath, GridPath};
 use formicar::planner::{Outcome, PathDocument, Plan, RequestDocument};
 use formicar_lab::campaign::{History, Improvement, Job, KNOWN_BY, Place, Row, Told};
+use formicar_lab::run::usage;
 use serde_json::{Map, Value, json};
 use std::f64::consts::SQRT_2;
 use std::io::Write;

@@ -2,13 +2,11 @@
 
 use anyhow::{Context, Result};
 use formicar_lab::campaign::{Job, Row, Told};
+use formicar_lab::run::pool;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc;
-use std::thread;
 
 /// A run that is over: its row, and what else its process has told.
 pub(crate) type Over = (Row, Told);
@@ -21,25 +19,11 @@ pub(super) fn all(
     mut on_over: impl FnMut(usize, Over) -> Result<()>,
 ) -> Result<()> {
     let program = this_program()?;
-    let next = AtomicUsize::new(0);
     let bar = progress_bar(jobs.len());
-    let result = thread::scope(|scope| {
-        let (sender, rows) = mpsc::channel();
-        for _ in 0..jobs.len().min(n_at_once as usize) {
-            let (sender, next, program) = (sender.clone(), &next, &program);
-            let mut mine = std::iter::from_fn(move || {
-                let place = next.fetch_add(1, Ordering::Relaxed);
-                Some((place, *jobs.get(place)?))
-            });
-            // Nobody listens any more after a failure.
-            let send = move |(place, job)| sender.send((place, one(program, job))).is_ok();
-            scope.spawn(move || mine.all(send));
-        }
-        drop(sender);
-        for (place, over) in rows {
-            on_over(place, over?)?;
-            bar.inc(1);
-        }
+    let run = |place: usize| one(&program, jobs[place]);
+    let result = pool::each(n_at_once as usize, jobs.len(), run, |place, over| {
+        on_over(place, over?)?;
+        bar.inc(1);
         Ok(())
     });
     bar.finish_and_clear();

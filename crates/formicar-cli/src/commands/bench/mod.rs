@@ -14,13 +14,11 @@ mod standing;
 pub(super) mod store;
 mod suite;
 mod summary;
-mod usage;
 mod variant;
 
 pub(crate) use args::BenchArgs;
 pub(crate) use child::run_one;
 pub(super) use place::ground_args;
-pub(super) use usage::end_with_parent;
 
 use super::machine;
 use crate::failure::{Ending, Failure};

@@ -11,12 +11,11 @@ use crate::failure::{Ending, Failure};
 use crate::output::Target;
 use anyhow::{Context, Result, bail};
 use case::Case;
+use formicar_lab::run::pool;
 use run::Done;
 use std::fs;
 use std::io::Write;
 use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc;
 use std::time::Instant;
 
 /// Runs at a time.
@@ -73,34 +72,15 @@ fn carry_out<'a>(
     cases: &'a [Case],
     mut hand_on: impl FnMut(&Done<'a>) -> Result<(), Failure>,
 ) -> Result<Vec<Done<'a>>, Failure> {
-    let next = AtomicUsize::new(0);
-    let (sender, receiver) = mpsc::channel();
-    std::thread::scope(|scope| {
-        for _ in 0..N_WORKERS {
-            let (sender, next) = (sender.clone(), &next);
-            scope.spawn(move || {
-                let take = || cases.get(next.fetch_add(1, Ordering::Relaxed));
-                let mut taken = std::iter::from_fn(take).map(|case| (case.id(), run::run(case)));
-                // Nobody listens any more where a result could not be handed on.
-                taken.all(|done| sender.send(done).is_ok())
-            });
-        }
-        drop(sender);
-        let mut waiting = Vec::new();
-        let mut done = Vec::new();
-        for arrived in receiver {
-            waiting.push(arrived);
-            while let Some(at) = cases
-                .get(done.len())
-                .and_then(|case| waiting.iter().position(|(id, _)| *id == case.id()))
-            {
-                let finished = waiting.swap_remove(at).1?;
-                hand_on(&finished)?;
-                done.push(finished);
-            }
-        }
-        Ok(done)
-    })
+    let mut done = Vec::new();
+    let run = |i: usize| run::run(&cases[i]);
+    pool::in_order(N_WORKERS, cases.len(), run, |finished| {
+        let finished = finished?;
+        hand_on(&finished)?;
+        done.push(finished);
+        Ok::<_, Failure>(())
+    })?;
+    Ok(done)
 }
 
 fn write_files(folder: &Path, done: &Done) -> Result<()> {

@@ -1,9 +1,9 @@
-//! What this process has used so far.
+//! What this process has used so far, and its tie to the process that started it.
 
 use std::fs;
 
 /// Processor time of all threads so far, seconds; none where the platform does not tell.
-pub(super) fn cpu_s() -> Option<f64> {
+pub fn cpu_s() -> Option<f64> {
     #[cfg(unix)]
     let seconds = {
         let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
@@ -15,7 +15,7 @@ pub(super) fn cpu_s() -> Option<f64> {
 }
 
 /// Ends this process when the one that has started it ends, killed or not; on Linux.
-pub(crate) fn end_with_parent() {
+pub fn end_with_parent() {
     #[cfg(target_os = "linux")]
     {
         // Where it is not allowed the process ends by itself, when its run is over.
@@ -24,8 +24,8 @@ pub(crate) fn end_with_parent() {
     }
 }
 
-/// The largest resident memory so far, bytes; none but on Linux.
-pub(super) fn peak_rss_bytes() -> Option<u64> {
+/// The largest resident memory so far, bytes; none except on Linux.
+pub fn peak_rss_bytes() -> Option<u64> {
     peak(&fs::read_to_string("/proc/self/status").ok()?)
 }
 
