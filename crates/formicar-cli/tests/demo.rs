@@ -50,10 +50,19 @@ fn values<'a>(page: &'a str, attribute: &str) -> Vec<&'a str> {
 }
 
 #[test]
-fn every_link_of_the_page_resolves() {
-    let folder = tempfile::tempdir().unwrap();
-    let run = demo(folder.path());
-    let page = fs::read_to_string(folder.path().join("shown/index.html")).unwrap();
+fn a_demo_holds_together_and_another_differs_in_times_alone() {
+    let folders = [(); 2].map(|()| tempfile::tempdir().unwrap());
+    let [first, second] = folders.each_ref().map(tempfile::TempDir::path);
+    let run = demo(first);
+    demo(second);
+    assert!(run.stdout.contains("index.html"), "{}", run.stdout);
+    assert_every_link_of_the_page_resolves(first);
+    assert_what_is_found_is_certified_and_the_rest_is_explained(first);
+    assert_eq!(answers(first), answers(second));
+}
+
+fn assert_every_link_of_the_page_resolves(folder: &Path) {
+    let page = fs::read_to_string(folder.join("shown/index.html")).unwrap();
     let ids = values(&page, "id");
     assert_eq!(ids.len(), 9);
     let links = ["href", "src", "srcset"].map(|attribute| values(&page, attribute));
@@ -62,18 +71,14 @@ fn every_link_of_the_page_resolves() {
         match link.strip_prefix('#') {
             Some(id) => assert!(ids.contains(&id), "{link}"),
             None if link.starts_with("data:") => {}
-            None => assert!(folder.path().join("shown").join(link).is_file(), "{link}"),
+            None => assert!(folder.join("shown").join(link).is_file(), "{link}"),
         }
     }
     assert!(!page.contains("http"), "the page needs no network");
-    assert!(run.stdout.contains("index.html"), "{}", run.stdout);
 }
 
-#[test]
-fn what_is_found_is_certified_and_the_rest_is_explained() {
-    let folder = tempfile::tempdir().unwrap();
-    demo(folder.path());
-    let answers = answers(folder.path());
+fn assert_what_is_found_is_certified_and_the_rest_is_explained(folder: &Path) {
+    let answers = answers(folder);
     assert_eq!(answers.len(), 9);
     for (name, answer) in &answers {
         if answer["status"] == "found" {
@@ -101,18 +106,8 @@ fn what_is_found_is_certified_and_the_rest_is_explained() {
         "--vehicle",
         "lei2020",
     ];
-    let checked = formicar_in(folder.path(), &again, "");
+    let checked = formicar_in(folder, &again, "");
     assert_eq!(checked.code, 0, "{}", checked.stdout);
-}
-
-#[test]
-fn two_demos_differ_in_times_alone() {
-    let folders = [(); 2].map(|()| tempfile::tempdir().unwrap());
-    for folder in &folders {
-        demo(folder.path());
-    }
-    let [first, second] = folders.map(|folder| answers(folder.path()));
-    assert_eq!(first, second);
 }
 
 #[test]

@@ -6,7 +6,11 @@ use std::collections::BTreeMap;
 #[test]
 fn a_quick_reproduction_writes_rows_tables_and_the_machine() {
     let room = Room::new();
-    let run = room.run(&["reproduce", "wang2019", "--quick", "--out", "lab"]);
+    let reproduce = |jobs: &str, out: &str| {
+        let quick = ["reproduce", "wang2019", "--quick", "--jobs", jobs];
+        room.run(&[&quick[..], &["--out", out]].concat())
+    };
+    let run = reproduce("1", "lab");
     assert_eq!(run.code, 0, "{}", run.stderr);
     let read = |name: &str| std::fs::read_to_string(room.path("lab/wang2019").join(name)).unwrap();
     let rows = read("results.csv");
@@ -26,6 +30,9 @@ fn a_quick_reproduction_writes_rows_tables_and_the_machine() {
     assert_eq!(report["name"], "wang2019");
     // A row per iteration of three planners on three maps, three seeds each.
     assert_eq!(read("courses.csv").lines().count(), 1 + 3 * 3 * 3 * 200);
+    assert_eq!(reproduce("3", "again").code, 0);
+    // Jobs change no number but times.
+    assert_eq!(untimed(&room, "lab"), untimed(&room, "again"));
     assert_eq!(room.run(&["reproduce", "nobody"]).code, 2);
     let no_jobs = room.run(&["reproduce", "wang2019", "--jobs", "0"]);
     assert_eq!(no_jobs.code, 2);
@@ -36,30 +43,14 @@ fn a_quick_reproduction_writes_rows_tables_and_the_machine() {
     );
 }
 
-#[test]
-fn jobs_change_no_number_but_times() {
-    let room = Room::new();
-    let rows = |jobs: &str| {
-        let args = [
-            "reproduce",
-            "wang2019",
-            "--quick",
-            "--jobs",
-            jobs,
-            "--out",
-            jobs,
-        ];
-        assert_eq!(room.run(&args).code, 0);
-        let path = room.path(jobs).join("wang2019/results.csv");
-        let text = std::fs::read_to_string(path).unwrap();
-        // The last two columns are times.
-        let untimed = |line: &str| {
-            let fields: Vec<&str> = line.split(',').collect();
-            fields[..fields.len() - 2].join(",")
-        };
-        text.lines().map(untimed).collect::<Vec<_>>()
+/// The rows of `wang2019` without their last two columns, which are times.
+fn untimed(room: &Room, folder: &str) -> Vec<String> {
+    let rows = std::fs::read_to_string(room.path(folder).join("wang2019/results.csv")).unwrap();
+    let untimed = |line: &str| {
+        let fields: Vec<&str> = line.split(',').collect();
+        fields[..fields.len() - 2].join(",")
     };
-    assert_eq!(rows("1"), rows("3"));
+    rows.lines().map(untimed).collect()
 }
 
 /// The numbers of a page by name.

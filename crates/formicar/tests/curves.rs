@@ -90,8 +90,6 @@ fn any_pose() -> impl Strategy<Value = Pose2> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(4000))]
-
     #[test]
     fn curves_end_where_they_should(
         from in any_pose(), to in any_pose(), radius_m in 0.01..100.0

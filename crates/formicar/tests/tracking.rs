@@ -482,7 +482,7 @@ fn mirrored(pose: Pose2) -> Pose2 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig::with_cases(ProptestConfig::default().cases / 5))]
 
     #[test]
     fn limits_are_kept_everywhere((path, config) in any_drive()) {
@@ -544,7 +544,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(ProptestConfig::with_cases(ProptestConfig::default().cases / 12))]
 
     #[test]
     fn swept_area_is_that_of_a_raster(path in any_path(0.41)) {

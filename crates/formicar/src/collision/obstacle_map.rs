@@ -223,7 +223,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(64))]
+        #![proptest_config(ProptestConfig::with_cases(ProptestConfig::default().cases / 5))]
+
         #[test]
         fn an_updated_map_is_that_of_the_changed_cells(
             n_cols in 1_usize..400,

@@ -240,7 +240,6 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(600))]
         #[test]
         fn equals_a_comparison_of_all_ways(
             // 0 to 4 are obstacles, 5 to 9 the pocket, of which 5 stays open.

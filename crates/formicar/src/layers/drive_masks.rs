@@ -187,7 +187,6 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(400))]
         #[test]
         fn a_clear_mask_means_a_free_motion(
             obstacles in prop::collection::vec((0_u32..90, 0_u32..60), 0..25),

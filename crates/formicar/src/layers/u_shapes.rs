@@ -222,7 +222,6 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(1500))]
         #[test]
         fn no_way_becomes_longer_or_is_cut(
             n_cols in 4_usize..20,

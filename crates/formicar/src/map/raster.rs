@@ -184,8 +184,6 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(2000))]
-
         #[test]
         fn equals_brute_force(corners in corners(48, 1..9)) {
             prop_assert_eq!(touched(&corners), brute_force(&corners));

@@ -237,7 +237,6 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(200))]
         #[test]
         fn a_repaired_field_is_the_one_computed_anew(
             (n_cols, n_rows) in (1_usize..24, 1_usize..24),

@@ -34,8 +34,6 @@ fn least_deviations(turns: &[f64], lengths: &[f64], radius_m: f64, n_members: u3
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
-
     /// On open ground nothing but neighbors limits the turns: the choice is the best joint one.
     #[test]
     fn neighbors_share_segments_as_well_as_they_can(

@@ -112,7 +112,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(64))]
+        #![proptest_config(ProptestConfig::with_cases(ProptestConfig::default().cases / 5))]
+
         #[test]
         fn refreshed_cells_are_those_of_the_changed_map(
             n_cols in 30_usize..300,
