@@ -10,7 +10,9 @@ use formicar::path::GridPath;
 use formicar::progress::Limits;
 use formicar::scenario::{GoalHeading, MotionMode, Request, StartHeading};
 use formicar::search::{AstarWorkspace, astar};
-use formicar::smoothing::{Ground, SmoothingConfig, TwoTurning, remove_redundant_nodes, smooth};
+use formicar::smoothing::{
+    SmoothingConfig, SmoothingProblem, TwoTurning, remove_redundant_nodes, smooth,
+};
 use formicar::vehicle::Vehicle;
 use support::{HOOD_RESOLUTION_M, hood};
 
@@ -44,8 +46,8 @@ impl Place {
         })
     }
 
-    fn ground(&self) -> Ground<'_> {
-        Ground {
+    fn ground(&self) -> SmoothingProblem<'_> {
+        SmoothingProblem {
             obstacles: &self.obstacles,
             vehicle: &self.vehicle,
             blocked: &self.blocked,

@@ -9,7 +9,7 @@ use formicar::progress::Limits;
 use formicar::render::{Picture, PoseMark, Scene};
 use formicar::scenario::Request;
 use formicar::search::{AstarWorkspace, astar};
-use formicar::smoothing::{Ground, RedundantNodes, SmoothingConfig, smooth};
+use formicar::smoothing::{RedundantNodes, SmoothingConfig, SmoothingProblem, smooth};
 use formicar::vehicle::Vehicle;
 use std::{error::Error, fs};
 
@@ -31,14 +31,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     let found = astar(&moves, from, to, &mut AstarWorkspace::new(), &mut limits)?;
 
     let nodes = RedundantNodes::Remove.apply(&blocked, rule, &found.path);
-    let ground = Ground {
+    let problem = SmoothingProblem {
         obstacles: &obstacles,
         vehicle: &vehicle,
         blocked: &blocked,
         rule,
     };
     let request = Request::new(start, goal);
-    let smoothed = smooth(&ground, &SmoothingConfig::default(), &request, &nodes)?;
+    let smoothed = smooth(&problem, &SmoothingConfig::default(), &request, &nodes)?;
     let (n_cells, n_nodes) = (found.path.cells.len(), nodes.len());
     println!("{n_cells} nodes before, {n_nodes} after");
 

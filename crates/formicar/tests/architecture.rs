@@ -33,7 +33,7 @@ const RANKED: [&str; 20] = [
 /// The one module that may touch the file system and the environment.
 const FILES: &str = "map/format";
 /// The one file that may start threads.
-const THREADS: &str = "colony/crew.rs";
+const THREADS: &str = "colony/worker_pool.rs";
 /// Parts of `std` that only [`FILES`] may use: a pure library gets its inputs as arguments.
 const OUTSIDE_WORLD: [&str; 5] = ["env", "fs", "net", "process", "thread"];
 /// What no module may do. (Time comes in through `progress::Observer`.)

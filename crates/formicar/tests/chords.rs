@@ -1,15 +1,15 @@
 //! The colony that steps by chords: determinism, safety, and what each rule changes.
 
 use formicar::collision::ObstacleMap;
+use formicar::colony::ColonyRun;
 use formicar::colony::chord::{ChordConfig, ChordProblem, FootprintSafety, Safety, run_chords};
-use formicar::colony::{ColonyRun, Stop};
 use formicar::geometry::Pose2;
 use formicar::layers::SweptMasks;
 use formicar::map::generate::{ScatterParameters, scattered_obstacles};
 use formicar::map::{BitGrid, Cell, DiagonalRule, MoveMasks, OCCUPIED, OccupancyGrid};
 use formicar::numeric::Seed;
 use formicar::planner::{Outcome, Planner, PlannerConfig, PlannerName};
-use formicar::progress::{Event, Limits, Observer, Status};
+use formicar::progress::{Event, Limits, Observer, Status, Stop};
 use formicar::scenario::{GoalHeading, Request};
 use formicar::vehicle::Vehicle;
 use proptest::prelude::*;

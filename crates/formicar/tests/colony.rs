@@ -5,13 +5,11 @@ use formicar::colony::dead_end::{DeadEnd, Retreat};
 use formicar::colony::evaporation::{Evaporation, PoissonEvaporation};
 use formicar::colony::heuristic::{Advantage, Guidance, StepLength, Visibility};
 use formicar::colony::initial::{AstarSeed, InitialPheromone};
-use formicar::colony::{
-    ColonyConfig, ColonyProblem, ColonyRun, RunError, Stop, Stopping, presets, run,
-};
+use formicar::colony::{ColonyConfig, ColonyProblem, ColonyRun, RunError, Stopping, presets, run};
 use formicar::map::{BitGrid, Cell, MoveMasks, STEPS, builtin};
 use formicar::numeric::Seed;
 use formicar::path::GridPath;
-use formicar::progress::{Event, Limits, Observer};
+use formicar::progress::{Event, Limits, Observer, Stop};
 use formicar::search::GoalField;
 use std::f64::consts::SQRT_2;
 use std::time::Duration;

@@ -9,7 +9,7 @@ use formicar::objective::{DriveCost, DriveMeter, SoftCost};
 use formicar::path::{CurvePath, Direction};
 use formicar::progress::{Limits, Status};
 use formicar::scenario::{MotionMode, Request};
-use formicar::search::{DriveGround, DriveProblem, HybridAstarConfig, hybrid_astar};
+use formicar::search::{DrivableMap, DriveProblem, HybridAstarConfig, hybrid_astar};
 use formicar::smoothing::{ImproveConfig, ImproveProblem, Improved, Improver};
 use formicar::validation::judge;
 use formicar::vehicle::Vehicle;
@@ -142,7 +142,7 @@ fn random_case(vehicle: Vehicle, motion: MotionMode, seed: u64) -> Option<Case> 
         ..HybridAstarConfig::default()
     };
     let shared = std::sync::Arc::new(obstacles.clone());
-    let ground = DriveGround::new(shared, &vehicle, &config).unwrap();
+    let ground = DrivableMap::new(shared, &vehicle, &config).unwrap();
     let problem = DriveProblem::new(&ground, &config, &request);
     let mut nobody = ();
     let found = hybrid_astar(&problem, &mut Limits::new(&mut nobody, None, None));

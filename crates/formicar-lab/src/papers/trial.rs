@@ -2,12 +2,11 @@
 
 use crate::papers::experiment::{Ground, Variant};
 use anyhow::Result;
-use formicar::colony::History;
 use formicar::map::{BitGrid, Cell, MoveMasks};
 use formicar::numeric::Seed;
 use formicar::path::GridPath;
 use formicar::planner::{Outcome, Planner, Stages};
-use formicar::progress::{Event, IterationRecord, Limits, Observer};
+use formicar::progress::{Event, History, IterationRecord, Limits, Observer};
 use formicar::search::GoalField;
 use serde::Serialize;
 use std::f64::consts::SQRT_2;

@@ -14,7 +14,7 @@ pub struct Adjacency {
     pub neighbors: Vec<Vec<(u32, f64)>>,
 }
 
-/// Where a cell lies on the map; it decides which neighbors exist: Wang 2019, figure 2.
+/// The position of a cell on the map, which decides which neighbors exist: Wang 2019, figure 2.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PositionClass {
     /// Lower left corner.

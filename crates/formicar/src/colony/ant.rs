@@ -1,52 +1,53 @@
-//! An ant's way from start to goal.
+//! The path of an ant from cell to cell.
 
 use super::config::ColonyConfig;
-use super::crew::Walk;
-use super::footmarks::{Footmarks, Place};
+use super::cost::CellCost;
 use super::generation::Generation;
-use super::ground::Ground;
+use super::graph::StepGraph;
 use super::node::Node;
+use super::visited::{BitAddress, VisitedCells};
+use super::worker_pool::AntWorker;
 use crate::numeric::{RandomStream, Seed};
 use std::ops::Range;
 
-/// Sends ants out, one after the other.
-pub(super) struct Walker<'a> {
-    ground: &'a Ground,
+/// Walks ants, one after the other.
+pub(super) struct CellWorker<'a> {
+    graph: &'a StepGraph,
+    config: &'a ColonyConfig,
     seed: Seed,
-    max_retreats: u32,
-    marks: Footmarks,
-    visited: Vec<Place>,
+    visited: VisitedCells,
+    marked: Vec<BitAddress>,
 }
 
-impl<'a> Walker<'a> {
-    pub(super) fn new(ground: &'a Ground, config: &ColonyConfig, seed: Seed) -> Self {
+impl<'a> CellWorker<'a> {
+    pub(super) fn new(graph: &'a StepGraph, config: &'a ColonyConfig, seed: Seed) -> Self {
         Self {
-            ground,
+            graph,
+            config,
             seed,
-            max_retreats: config.dead_end.max_retreats(),
-            marks: Footmarks::new(ground.n_cols, ground.n_rows),
-            visited: Vec::new(),
+            visited: VisitedCells::new(graph.n_cols, graph.n_rows),
+            marked: Vec::new(),
         }
     }
 
-    /// Walks until the goal or until no step is left; whether it is the goal.
+    /// Walks until the goal, or until no step is left; returns whether the ant arrived.
     fn walk(&mut self, nodes: &[Node], stream: &mut RandomStream, steps: &mut Vec<u8>) -> bool {
-        let (first_step, mut n_retreats) = (steps.len(), 0);
-        let (mut at, goal) = self.ground.ends;
-        self.visit(nodes[at].place);
+        let (first_step, mut n_left) = (steps.len(), self.config.dead_end.max_retreats());
+        let (mut at, goal) = self.graph.ends;
+        self.visit(nodes[at].address);
         while Some(at) != goal {
             let node = &nodes[at];
-            let open = node.allowed & !self.marks.around(node.place);
+            let open = node.allowed & !self.visited.around(node.address);
             let step = if open != 0 {
                 let preferred = open & node.first_class;
                 let class = if preferred != 0 { preferred } else { open };
                 let step = node.draw(class, (stream.next_u64() >> 32) as u32);
                 steps.push(step as u8);
                 at = node.next(at, step);
-                self.visit(nodes[at].place);
+                self.visit(nodes[at].address);
                 continue;
-            } else if n_retreats < self.max_retreats && steps.len() > first_step {
-                n_retreats += 1;
+            } else if n_left > 0 && steps.len() > first_step {
+                n_left -= 1;
                 steps.pop().unwrap_or_default()
             } else {
                 return false;
@@ -57,29 +58,34 @@ impl<'a> Walker<'a> {
     }
 
     #[inline]
-    fn visit(&mut self, place: Place) {
-        self.marks.mark(place);
-        self.visited.push(place);
+    fn visit(&mut self, address: BitAddress) {
+        self.visited.mark(address);
+        self.marked.push(address);
     }
 }
 
-impl Walk for Walker<'_> {
+impl AntWorker for CellWorker<'_> {
     type Shared = Vec<Node>;
-    type Part = Generation;
+    type Batch = Generation<CellCost>;
 
-    fn send(
+    fn walk_ants(
         &mut self,
         nodes: &Vec<Node>,
         iteration: u32,
         ants: Range<u32>,
-        generation: &mut Generation,
+        generation: &mut Generation<CellCost>,
     ) {
         for ant in ants {
             let mut stream = self.seed.stream([u64::from(iteration), u64::from(ant)]);
-            let arrived = self.walk(nodes, &mut stream, &mut generation.steps);
-            generation.end_ant(arrived);
-            self.marks.clear(&self.visited);
-            self.visited.clear();
+            let has_arrived = self.walk(nodes, &mut stream, &mut generation.steps);
+            let cost = if has_arrived {
+                CellCost::new(&self.config.cost, generation.open_steps())
+            } else {
+                CellCost::default()
+            };
+            generation.end_ant(has_arrived, cost);
+            self.visited.clear(&self.marked);
+            self.marked.clear();
         }
     }
 }

@@ -3,17 +3,19 @@
 use super::corridor::Corridor;
 use super::dead_end::DeadEnd;
 use super::deposit::Deposit;
+use super::directions::Directions;
+use super::error::ColonyError;
 use super::evaporation::Evaporation;
 use super::heuristic::{Guidance, Visibility};
 use super::initial::InitialPheromone;
 use super::limits::PheromoneLimits;
+use super::stopping::Stopping;
 use super::transition::Transition;
 use crate::map::DiagonalRule;
-use crate::numeric::{OutOfRange, check_range};
+use crate::numeric::check_range;
 use crate::objective::PathCost;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
 /// A colony: its size, where its ants may go, and a rule for each slot.
 ///
@@ -62,26 +64,6 @@ pub struct ColonyConfig {
     pub stopping: Stopping,
 }
 
-impl Default for ColonyConfig {
-    fn default() -> Self {
-        super::presets::ant_system()
-    }
-}
-
-/// Steps that an ant may take.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Directions {
-    /// Straight steps.
-    Four,
-    /// Straight steps and both along one diagonal, the one nearer to the line from start to goal
-    /// (Joshy & Supriya 2016; the choice of the diagonal is a reading).
-    Six,
-    /// All steps.
-    #[default]
-    Eight,
-}
-
 /// What an ant does beside the goal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -102,46 +84,6 @@ pub enum TrailLayout {
     Cells,
     /// Steps from cell to cell; there and back are two.
     Edges,
-}
-
-/// When to stop before the last iteration.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct Stopping {
-    /// Iterations without a better path after which the colony stops; 0 for never.
-    pub stall_iterations: u32,
-    /// How much cheaper a path must be to count as better, in shares of the cost, from 0 to 1.
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub least_gain: f64,
-    /// Cost at which a path is good enough, at least 0; 0 for none.
-    #[schemars(range(min = 0.0))]
-    pub target_cost: f64,
-}
-
-impl Stopping {
-    /// Below which cost a path counts as better than a known one.
-    pub(super) fn counts_below(&self, known_cost: f64) -> f64 {
-        (1.0 - self.least_gain) * known_cost
-    }
-}
-
-/// What is wrong with a colony.
-#[derive(Clone, Debug, Error, PartialEq)]
-#[non_exhaustive]
-pub enum ColonyError {
-    /// A parameter outside its range.
-    #[error(transparent)]
-    OutOfRange(#[from] OutOfRange),
-    /// An evaporation that would leave its range.
-    #[error(
-        "colony.evaporation: rho is {rho} at iteration {iteration}; it must be above 0 and below 1; hint: change amplitude or offset"
-    )]
-    Evaporation {
-        /// The first iteration at which it does.
-        iteration: u32,
-        /// What it would be.
-        rho: f64,
-    },
 }
 
 impl ColonyConfig {

@@ -1,233 +1,179 @@
-//! The loop of a colony: walk, evaluate, remember, evaporate, deposit, limit, tell, stop.
+//! The loop of every colony: walk, remember, update pheromone, report, stop.
 
-use super::ant::Walker;
-use super::config::{ColonyConfig, ColonyError};
-use super::crew::{Crew, with_crew};
-use super::generation::{Generation, Way};
-use super::ground::Ground;
-use super::history::{ColonyRun, History, Stop};
-use super::initial::{Laid, PheromoneUnit};
-use super::limits::Bounds;
-use super::node::Node;
-use super::problem::ColonyProblem;
-use super::trails::Trails;
-use crate::map::STEPS;
-use crate::numeric::Seed;
-use crate::objective::StepCounts;
-use crate::progress::{ColonyView, Event, IterationRecord, Limits, Status, path_of};
-use crate::search::SearchError;
-use crate::vehicle::VehicleError;
+use super::cost::AntCost;
+use super::evaporation::Evaporation;
+use super::generation::{Generation, StepSpace};
+use super::memory::Memory;
+use super::run::ColonyRun;
+use super::stopping::Stopping;
+use super::worker_pool::{AntWorker, WorkerPool, with_workers};
+use crate::progress::Pheromone;
+use crate::progress::{ColonyView, Event, History, IterationRecord, Limits, Stop, iterate};
+use std::convert::Infallible;
 use std::sync::Arc;
-use thiserror::Error;
 
-/// Why a colony did not run.
-#[derive(Clone, Debug, Error, PartialEq)]
-#[non_exhaustive]
-pub enum RunError {
-    /// A parameter is out of its range.
-    #[error(transparent)]
-    Config(#[from] ColonyError),
-    /// Start or goal cannot be stood on, or the goal field ended.
-    #[error(transparent)]
-    Search(#[from] SearchError),
-    /// A vehicle that cannot have the margin asked for.
-    #[error(transparent)]
-    Vehicle(#[from] VehicleError),
-    /// More cells to reach than [`ColonyProblem::MAX_CELLS`].
-    #[error(
-        "a colony works on at most {max} cells, of the map's {n_cells} its ants can reach more; hint: colony.corridor.rule=\"ratio\", or a coarser resolution"
-    )]
-    TooLarge {
-        /// Cells of the map.
-        n_cells: usize,
-        /// Cells that ants may reach.
-        max: usize,
-    },
+/// A colony that the [`Engine`] runs: its pheromone, and what its ants read.
+pub(super) trait Colony {
+    /// The cost of an ant's path.
+    type Cost: AntCost;
+    /// Walks the ants.
+    type Worker: AntWorker<Batch = Generation<Self::Cost>>;
+
+    /// A colony that has found no path yet stops after this many times the iterations after which
+    /// one with a path stops; none if it never gives up.
+    const PATIENCE_WITHOUT_PATH: Option<u32>;
+
+    /// The parameters of the loop.
+    fn parameters(&self) -> LoopParameters<'_>;
+
+    /// The ends of all paths, and the steps between them.
+    fn space(&self) -> StepSpace<'_>;
+
+    /// Makes ready what the ants of an iteration read.
+    fn prepare(&mut self, iteration: u32) -> &Arc<<Self::Worker as AntWorker>::Shared>;
+
+    /// Evaporates a share `rho` of the pheromone, and deposits what the ants of an iteration add.
+    fn update(
+        &mut self,
+        iteration: u32,
+        rho: f64,
+        generation: &Generation<Self::Cost>,
+        memory: &Memory<Self::Cost>,
+    );
+
+    /// All pheromone.
+    fn pheromone(&self) -> Pheromone<'_>;
+
+    /// The least and the most pheromone where ants can go.
+    fn pheromone_range(&self) -> (f32, f32);
+
+    /// A length of [`AntCost::length`] in cells.
+    fn length_cells(&self, length: f64) -> f64;
 }
 
-/// Runs a colony on a problem.
-///
-/// Same problem, configuration and seed: same run, to the last bit, on any number of threads. A
-/// step of the limits is a step of an ant; deadline and cancel are looked at between iterations.
-/// An iteration takes time in proportion to the cells that can be reached and to the steps walked.
-///
-/// # Errors
-/// Parameters out of range, a start or goal off the map or blocked, too many cells to reach.
-pub fn run(
-    problem: &ColonyProblem,
-    config: &ColonyConfig,
-    seed: Seed,
-    n_threads: usize,
-    limits: &mut Limits,
-) -> Result<ColonyRun, RunError> {
-    config.check()?;
-    problem.check_ends()?;
-    let (ground, nodes) = Ground::new(problem, config, limits)?;
-    let initial = config.initial.lay(problem, &ground.cells, limits)?;
-    let mut colony = Colony::new(problem, config, (&ground, nodes), initial);
-    let stop = if ground.has_way() {
-        let walker = || Walker::new(&ground, config, seed);
-        with_crew(walker, config.n_ants, n_threads, |crew| {
-            colony.run(crew, limits)
-        })
-    } else {
-        Stop::NoWay
-    };
-    Ok(ColonyRun {
-        best: colony
-            .memory
-            .best
-            .map(|way| path_of(&STEPS, [problem.start(), problem.goal()], &way.steps)),
-        earlier: Vec::new(),
-        history: colony.history,
-        stop,
-        pheromone: colony.trails.by_cell(&ground),
-    })
+/// The parameters of the loop.
+pub(super) struct LoopParameters<'a> {
+    pub(super) n_ants: u32,
+    pub(super) n_iterations: u32,
+    pub(super) evaporation: &'a Evaporation,
+    pub(super) stopping: &'a Stopping,
 }
 
-/// What a colony remembers from iteration to iteration.
-#[derive(Default)]
-pub(super) struct Memory {
-    pub(super) best: Option<Way>,
-    pub(super) worst: Option<Way>,
-    /// Iterations so far that brought no better path.
-    pub(super) n_stagnant: u32,
-    /// Iterations since the last that did.
-    pub(super) n_stalled: u32,
-}
-
-/// A run in progress.
-struct Colony<'a> {
-    problem: &'a ColonyProblem,
-    config: &'a ColonyConfig,
-    ground: &'a Ground,
-    nodes: Arc<Vec<Node>>,
-    trails: Trails,
-    bounds: Bounds,
-    memory: Memory,
+/// Runs a colony.
+pub(super) struct Engine<C: Colony> {
+    colony: C,
+    memory: Memory<C::Cost>,
     history: History,
 }
 
-impl<'a> Colony<'a> {
-    fn new(
-        problem: &'a ColonyProblem,
-        config: &'a ColonyConfig,
-        (ground, nodes): (&'a Ground, Vec<Node>),
-        mut initial: Laid,
-    ) -> Self {
-        if config.initial.unit() == PheromoneUnit::Deposit {
-            initial.scale(config.deposit.expected(config.n_ants) / straight_cost(problem, config));
-        }
+impl<C: Colony> Engine<C> {
+    pub(super) fn new(colony: C) -> Self {
         Self {
-            bounds: Bounds::new(initial.least, &nodes),
-            trails: Trails::new(config.trails, &initial.values, ground, &nodes),
-            nodes: Arc::new(nodes),
+            colony,
             memory: Memory::default(),
             history: History::default(),
-            problem,
-            config,
-            ground,
         }
     }
 
-    fn run(&mut self, crew: &mut Crew<Walker>, limits: &mut Limits) -> Stop {
-        let mut generation = Generation::default();
-        for iteration in 0..self.config.n_iterations {
-            match limits.look() {
-                Err(Status::Cancelled) => return Stop::Cancelled,
-                Err(_) => return Stop::Deadline,
-                Ok(()) => {}
-            }
-            let nodes = Arc::make_mut(&mut self.nodes);
-            self.trails.weigh(self.config.alpha, self.ground, nodes);
-            crew.walk(&self.nodes, iteration, &mut generation);
-            let n_steps = limits.take(generation.n_steps());
-            let is_cut = n_steps < generation.n_steps();
-            generation.keep_steps(n_steps);
-            generation.evaluate(&self.config.cost);
-            self.remember(&generation);
-            let record = self.update(iteration, &generation);
-            limits.tell(&Event::Iteration(ColonyView {
-                record: &record,
-                ways: generation.view([self.problem.start(), self.problem.goal()]),
-                pheromone: self.trails.view(),
-            }));
-            self.history.iterations.push(record);
-            if is_cut {
-                return Stop::Budget;
-            }
-            if let Some(stop) = self.is_done() {
-                return stop;
-            }
-        }
-        Stop::Iterations
+    /// Runs all iterations, with workers on at most `n_threads` threads.
+    pub(super) fn run(
+        mut self,
+        worker: impl Fn() -> C::Worker,
+        n_threads: usize,
+        limits: &mut Limits,
+    ) -> ColonyRun {
+        let LoopParameters {
+            n_ants,
+            n_iterations,
+            ..
+        } = self.colony.parameters();
+        let stop = with_workers(worker, n_ants, n_threads, |pool| {
+            let mut generation = Generation::default();
+            let Ok(stop) = iterate::<Infallible>(n_iterations, limits, |iteration, limits| {
+                Ok(self.run_iteration(iteration, pool, &mut generation, limits))
+            });
+            stop
+        });
+        self.finish(stop)
     }
 
-    fn remember(&mut self, generation: &Generation) {
-        let (memory, stopping) = (&mut self.memory, &self.config.stopping);
-        memory.n_stagnant += 1;
-        memory.n_stalled += 1;
-        let (Some(best), Some(worst)) = (generation.best(), generation.worst()) else {
-            return;
+    /// The result of a run that has stopped.
+    pub(super) fn finish(self, stop: Stop) -> ColonyRun {
+        let space = self.colony.space();
+        let paths = self.memory.improvements.iter().rev();
+        let mut paths = paths.map(|path| space.path(&path.steps));
+        ColonyRun {
+            best: paths.next(),
+            earlier: paths.collect(),
+            stop,
+            pheromone: self.colony.pheromone().by_cell(space.n_cols, space.n_rows),
+            history: self.history,
+        }
+    }
+
+    /// Runs an iteration; returns why it was the last, if it was.
+    fn run_iteration(
+        &mut self,
+        iteration: u32,
+        pool: &mut WorkerPool<C::Worker>,
+        generation: &mut Generation<C::Cost>,
+        limits: &mut Limits,
+    ) -> Option<Stop> {
+        pool.walk(self.colony.prepare(iteration), iteration, generation);
+        let n_steps = limits.take(generation.n_steps());
+        let is_cut = n_steps < generation.n_steps();
+        generation.keep_steps(n_steps);
+        self.update(iteration, generation, limits);
+        if is_cut {
+            return Some(Stop::Budget);
+        }
+        self.is_done()
+    }
+
+    /// Remembers, updates pheromone, and reports.
+    fn update(&mut self, iteration: u32, generation: &Generation<C::Cost>, limits: &mut Limits) {
+        let (memory, parameters) = (&mut self.memory, self.colony.parameters());
+        memory.update(generation, parameters.stopping);
+        let (n_iterations, n_stagnant) = (parameters.n_iterations, memory.n_stagnant);
+        let rho = parameters
+            .evaporation
+            .rho(iteration, n_iterations, n_stagnant);
+        self.colony.update(iteration, rho, generation, memory);
+        let record = self.record(iteration, rho, generation);
+        limits.tell(&Event::Iteration(ColonyView {
+            record: &record,
+            ways: generation.view(self.colony.space()),
+            pheromone: self.colony.pheromone(),
+        }));
+        self.history.iterations.push(record);
+    }
+
+    fn record(
+        &self,
+        iteration: u32,
+        rho: f64,
+        generation: &Generation<C::Cost>,
+    ) -> IterationRecord {
+        let n_arrived = generation.arrived().count();
+        let mean = |value: fn(&C::Cost) -> f64| {
+            let arrived = generation.arrived();
+            let sum: f64 = arrived.map(|ant| value(generation.cost(ant))).sum();
+            (n_arrived > 0).then(|| sum / n_arrived as f64)
         };
-        let known = memory.best.as_ref().map(|known| known.cost);
-        if known.is_none_or(|known| best.cost < known) {
-            memory.best = Some(generation.way(best));
-            memory.n_stagnant -= 1;
-            if known.is_none_or(|known| best.cost < stopping.counts_below(known)) {
-                memory.n_stalled = 0;
-            }
-        }
-        if memory
-            .worst
-            .as_ref()
-            .is_none_or(|known| worst.cost > known.cost)
-        {
-            memory.worst = Some(generation.way(worst));
-        }
-    }
-
-    /// Evaporates, deposits, keeps the limits.
-    fn update(&mut self, iteration: u32, generation: &Generation) -> IterationRecord {
-        let rho = self.config.evaporation.rho(
-            iteration,
-            self.config.n_iterations,
-            self.memory.n_stagnant,
-        );
-        self.trails.evaporate(rho);
-        let deposits = self
-            .config
-            .deposit
-            .deposits(iteration, generation, &self.memory);
-        for (steps, amount) in deposits {
-            self.trails.deposit(self.ground, steps, amount);
-        }
-        let strongest = self.config.deposit.expected(1);
-        let (low, high) =
-            self.config
-                .limits
-                .range(&self.bounds, strongest / rho, self.memory.best.as_ref());
-        self.trails.clamp(low, high);
-        self.record(iteration, generation, rho)
-    }
-
-    fn record(&self, iteration: u32, generation: &Generation, rho: f64) -> IterationRecord {
-        let (costs, best) = (generation.costs(), self.memory.best.as_ref());
-        let mean = |of: fn(&super::generation::AntCost) -> f64| {
-            let sum: f64 = costs.iter().map(of).sum();
-            (!costs.is_empty()).then(|| sum / costs.len() as f64)
-        };
-        let (min_pheromone, max_pheromone) = self.trails.range();
+        let cells = |length: f64| self.colony.length_cells(length);
+        let best = generation.best().map(|ant| generation.cost(ant));
+        let best_so_far = self.memory.best().map(|path| &path.cost);
+        let (min_pheromone, max_pheromone) = self.colony.pheromone_range();
         IterationRecord {
             iteration,
             n_ants: generation.n_ants() as u32,
-            n_arrived: costs.len() as u32,
-            best_cost: generation.best().map(|ant| ant.cost),
-            mean_cost: mean(|ant| ant.cost),
-            best_length: generation.best().map(|ant| ant.length),
-            mean_length: mean(|ant| ant.length),
-            best_so_far_cost: best.map(|way| way.cost),
-            best_so_far_length: best.map(|way| way.length),
+            n_arrived: n_arrived as u32,
+            best_cost: best.map(C::Cost::cost),
+            mean_cost: mean(C::Cost::cost),
+            best_length: best.map(|best| cells(best.length())),
+            mean_length: mean(C::Cost::length).map(cells),
+            best_so_far_cost: best_so_far.map(C::Cost::cost),
+            best_so_far_length: best_so_far.map(|best| cells(best.length())),
             rho,
             min_pheromone: f64::from(min_pheromone),
             max_pheromone: f64::from(max_pheromone),
@@ -235,24 +181,14 @@ impl<'a> Colony<'a> {
     }
 
     fn is_done(&self) -> Option<Stop> {
-        let stopping = &self.config.stopping;
-        let cost = self.memory.best.as_ref()?.cost;
-        if cost <= stopping.target_cost {
-            return Some(Stop::TargetCost);
-        }
-        let patience = stopping.stall_iterations;
+        let stopping = self.colony.parameters().stopping;
+        let patience = match self.memory.best() {
+            Some(best) if best.cost.cost() <= stopping.target_cost => {
+                return Some(Stop::TargetCost);
+            }
+            Some(_) => stopping.stall_iterations,
+            None => C::PATIENCE_WITHOUT_PATH? * stopping.stall_iterations,
+        };
         (patience > 0 && self.memory.n_stalled >= patience).then_some(Stop::Stall)
     }
-}
-
-/// What the way from start to goal would cost if no obstacle stood there, turns aside; at least
-/// that of one step.
-fn straight_cost(problem: &ColonyProblem, config: &ColonyConfig) -> f64 {
-    let (start, goal) = (problem.start(), problem.goal());
-    let (dx, dy) = (start.col.abs_diff(goal.col), start.row.abs_diff(goal.row));
-    config.cost.cost(StepCounts {
-        n_straight: dx.abs_diff(dy).max(u32::from(dx == 0 && dy == 0)) as usize,
-        n_diagonal: dx.min(dy) as usize,
-        n_turns: 0,
-    })
 }

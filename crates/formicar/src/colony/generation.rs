@@ -1,65 +1,67 @@
-//! The ants of one iteration and what their ways cost.
+//! The ants of one iteration: their paths and what these cost.
 
-use super::crew::Part;
-use crate::map::{Cell, STEPS};
-use crate::objective::{PathCost, StepCounts};
-use crate::progress::AntWays;
+use super::cost::AntCost;
+use super::worker_pool::Batch;
+use crate::map::Cell;
+use crate::path::GridPath;
+use crate::progress::{AntWays, path_of};
 use std::ops::Range;
 
-/// The ways of the ants of an iteration, one behind the other.
+/// The paths of the ants of an iteration, one behind the other.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Generation {
-    /// Steps as places in [`STEPS`](crate::map::STEPS).
+pub(super) struct Generation<C> {
+    /// Steps as indices into [`StepSpace::moves`].
     pub(super) steps: Vec<u8>,
     ends: Vec<usize>,
     arrived: Vec<bool>,
-    costs: Vec<AntCost>,
+    costs: Vec<C>,
 }
 
-/// What an ant's way came to.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct AntCost {
-    pub(super) ant: usize,
-    pub(super) cost: f64,
-    pub(super) length: f64,
-}
-
-/// A way that a colony remembers.
+/// A path that a colony remembers.
 #[derive(Clone, Debug)]
-pub(super) struct Way {
+pub(super) struct AntPath<C> {
     pub(super) steps: Vec<u8>,
-    pub(super) cost: f64,
-    pub(super) length: f64,
+    pub(super) cost: C,
 }
 
-impl Generation {
-    /// Ends the way of an ant.
-    pub(super) fn end_ant(&mut self, arrived: bool) {
+/// The grid of a colony, the ends of all its paths, and the steps that its ants can take.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct StepSpace<'a> {
+    pub(super) start: Cell,
+    pub(super) goal: Cell,
+    /// Columns and rows of each step; any step that is not listed leads to the goal.
+    pub(super) moves: &'a [(i32, i32)],
+    pub(super) n_cols: usize,
+    pub(super) n_rows: usize,
+}
+
+impl StepSpace<'_> {
+    /// The cells of a path.
+    pub(super) fn path(&self, steps: &[u8]) -> GridPath {
+        path_of(self.moves, [self.start, self.goal], steps)
+    }
+}
+
+impl<C: AntCost> Generation<C> {
+    /// Ends the path of an ant; its cost matters only if it has arrived.
+    pub(super) fn end_ant(&mut self, has_arrived: bool, cost: C) {
         self.ends.push(self.steps.len());
-        self.arrived.push(arrived);
+        self.arrived.push(has_arrived);
+        self.costs.push(cost);
     }
 
-    /// Forgets all ants from the first on that does not end within so many steps.
+    /// The steps of the ant whose path has not been ended yet.
+    pub(super) fn open_steps(&self) -> &[u8] {
+        &self.steps[self.ends.last().copied().unwrap_or(0)..]
+    }
+
+    /// Keeps the first ants that together take at most `n_steps` steps.
     pub(super) fn keep_steps(&mut self, n_steps: u64) {
         let n_kept = self.ends.partition_point(|&end| end as u64 <= n_steps);
         self.ends.truncate(n_kept);
         self.arrived.truncate(n_kept);
+        self.costs.truncate(n_kept);
         self.steps.truncate(self.ends.last().copied().unwrap_or(0));
-    }
-
-    /// Works out the cost of every way that reached the goal.
-    pub(super) fn evaluate(&mut self, cost: &PathCost) {
-        let mut costs = std::mem::take(&mut self.costs);
-        let arrived = (0..self.n_ants()).filter(|&ant| self.arrived[ant]);
-        costs.extend(arrived.map(|ant| {
-            let counts = StepCounts::of(self.steps_of(ant));
-            AntCost {
-                ant,
-                cost: cost.cost(counts),
-                length: cost.length_cells(counts),
-            }
-        }));
-        self.costs = costs;
     }
 
     pub(super) fn n_ants(&self) -> usize {
@@ -71,8 +73,12 @@ impl Generation {
     }
 
     /// The ants that arrived, in their order.
-    pub(super) fn costs(&self) -> &[AntCost] {
-        &self.costs
+    pub(super) fn arrived(&self) -> impl DoubleEndedIterator<Item = usize> + '_ {
+        (0..self.n_ants()).filter(|&ant| self.arrived[ant])
+    }
+
+    pub(super) fn cost(&self, ant: usize) -> &C {
+        &self.costs[ant]
     }
 
     pub(super) fn steps_of(&self, ant: usize) -> &[u8] {
@@ -84,41 +90,41 @@ impl Generation {
         first..self.ends[ant]
     }
 
-    /// The cheapest ant; of equals the first.
-    pub(super) fn best(&self) -> Option<&AntCost> {
-        self.costs.iter().min_by(|a, b| a.cost.total_cmp(&b.cost))
+    /// The cheapest ant that arrived; the first among equals.
+    pub(super) fn best(&self) -> Option<usize> {
+        self.arrived().min_by(|&a, &b| self.compare(a, b))
     }
 
-    /// The dearest ant that arrived; of equals the first.
-    pub(super) fn worst(&self) -> Option<&AntCost> {
-        self.costs
-            .iter()
-            .rev()
-            .max_by(|a, b| a.cost.total_cmp(&b.cost))
+    /// The most expensive ant that arrived; the first among equals.
+    pub(super) fn worst(&self) -> Option<usize> {
+        self.arrived().rev().max_by(|&a, &b| self.compare(a, b))
     }
 
-    pub(super) fn way(&self, ant: &AntCost) -> Way {
-        Way {
-            steps: self.steps_of(ant.ant).to_vec(),
-            cost: ant.cost,
-            length: ant.length,
+    fn compare(&self, a: usize, b: usize) -> std::cmp::Ordering {
+        self.costs[a].cost().total_cmp(&self.costs[b].cost())
+    }
+
+    pub(super) fn path(&self, ant: usize) -> AntPath<C> {
+        AntPath {
+            steps: self.steps_of(ant).to_vec(),
+            cost: self.costs[ant],
         }
     }
 
-    pub(super) fn view(&self, [start, goal]: [Cell; 2]) -> AntWays<'_> {
+    pub(super) fn view<'a>(&'a self, space: StepSpace<'a>) -> AntWays<'a> {
         AntWays {
-            start,
-            goal,
-            moves: &STEPS,
+            start: space.start,
+            goal: space.goal,
+            moves: space.moves,
             steps: &self.steps,
             ends: &self.ends,
             arrived: &self.arrived,
-            best: self.best().map(|best| best.ant),
+            best: self.best(),
         }
     }
 }
 
-impl Part for Generation {
+impl<C: AntCost> Batch for Generation<C> {
     fn clear(&mut self) {
         self.steps.clear();
         self.ends.clear();
@@ -126,23 +132,26 @@ impl Part for Generation {
         self.costs.clear();
     }
 
-    fn append(&mut self, part: &Self) {
+    fn append(&mut self, batch: &Self) {
         let n_steps = self.steps.len();
-        self.steps.extend_from_slice(&part.steps);
-        self.ends.extend(part.ends.iter().map(|end| n_steps + end));
-        self.arrived.extend_from_slice(&part.arrived);
+        self.steps.extend_from_slice(&batch.steps);
+        self.ends.extend(batch.ends.iter().map(|end| n_steps + end));
+        self.arrived.extend_from_slice(&batch.arrived);
+        self.costs.extend_from_slice(&batch.costs);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::colony::cost::CellCost;
+    use crate::objective::PathCost;
 
-    fn generation() -> Generation {
+    fn generation() -> Generation<CellCost> {
         let mut generation = Generation::default();
-        for (steps, arrived) in [(&[0, 1, 1][..], true), (&[2], false), (&[0, 0, 0], true)] {
+        for (steps, has_arrived) in [(&[0, 1, 1][..], true), (&[2], false), (&[0, 0, 0], true)] {
             generation.steps.extend_from_slice(steps);
-            generation.end_ant(arrived);
+            generation.end_ant(has_arrived, CellCost::new(&PathCost::default(), steps));
         }
         generation
     }
@@ -151,10 +160,9 @@ mod tests {
     fn finds_best_and_worst_of_those_that_arrived() {
         let mut all = generation();
         all.append(&generation());
-        all.evaluate(&PathCost::default());
-        assert_eq!(all.costs().len(), 4);
-        assert_eq!(all.best().map(|ant| ant.ant), Some(2));
-        assert_eq!(all.worst().map(|ant| ant.ant), Some(0));
+        assert_eq!(all.arrived().count(), 4);
+        assert_eq!(all.best(), Some(2));
+        assert_eq!(all.worst(), Some(0));
         assert_eq!(all.steps_of(4), [2]);
     }
 

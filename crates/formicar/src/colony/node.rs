@@ -1,6 +1,6 @@
-//! What an ant reads of a cell, in one cache line.
+//! The data of a cell that ants read, in one cache line.
 
-use super::footmarks::Place;
+use super::visited::BitAddress;
 
 /// A cell as ants see it during an iteration.
 #[derive(Clone, Debug, Default)]
@@ -11,7 +11,7 @@ pub(super) struct Node {
     /// Numbers of the nodes in the rows above and below, in the order of the steps to them: those
     /// beside a node have the numbers before and after its own.
     across: [u32; 6],
-    pub(super) place: Place,
+    pub(super) address: BitAddress,
     /// Allowed steps, a bit each.
     pub(super) allowed: u8,
     /// Steps of the first class.
@@ -21,13 +21,13 @@ pub(super) struct Node {
 /// The largest weight: eight of them still fit 32 bits.
 const MAX_WEIGHT: f32 = ((1 << 28) - 1) as f32;
 
-/// Products below this are weighed coarsely, as what they are scaled with must stay finite.
+/// Products below this get coarse weights, since their scale factor must stay finite.
 const LEAST_SCALE: f32 = 1e-30;
 
-/// The whole part of a number from 0 to [`MAX_WEIGHT`]; anything for what is none.
+/// The integer part of a number from 0 to [`MAX_WEIGHT`]; arbitrary for not-a-number.
 ///
-/// As a cast would have it, eight at a time: half less a bit is taken off, so that rounding to the
-/// last place of a large number cuts off, and of the sum the lower bits are the whole part.
+/// Same result as a cast, but vectorizes to eight at a time: with nearly a half subtracted, adding a
+/// large number rounds down, and the lower bits of the sum are the integer part.
 #[inline]
 fn whole(number: f32) -> u32 {
     const HALF: f64 = 0.5 - 1.0 / (1 << 25) as f64;
@@ -37,11 +37,11 @@ fn whole(number: f32) -> u32 {
 
 impl Node {
     /// A node without weights.
-    pub(super) fn new(place: Place, allowed: u8, first_class: u8) -> Self {
+    pub(super) fn new(address: BitAddress, allowed: u8, first_class: u8) -> Self {
         Self {
             weights: [0; 8],
             across: [0; 6],
-            place,
+            address,
             allowed,
             first_class,
         }

@@ -1,6 +1,6 @@
-//! What a colony is asked: a way from start to goal.
+//! The problem that a colony solves: a path from start to goal.
 
-use super::config::Directions;
+use super::directions::Directions;
 use crate::map::{Cell, MoveMasks};
 use crate::search::{SearchError, check_end};
 
@@ -26,12 +26,12 @@ impl ColonyProblem {
         &self.moves
     }
 
-    /// Where the ants set out.
+    /// The cell where the ants start.
     pub fn start(&self) -> Cell {
         self.start
     }
 
-    /// Where they go.
+    /// The cell that they look for.
     pub fn goal(&self) -> Cell {
         self.goal
     }

@@ -1,17 +1,17 @@
 //! Pheromone, on cells or on steps from cell to cell.
 
 use super::config::TrailLayout;
-use super::ground::{Ground, steps_in};
+use super::graph::{StepGraph, steps_in};
 use super::node::Node;
-use crate::progress::{Pheromone, pheromone_by_cell};
+use crate::progress::Pheromone;
 use std::ops::Range;
 
-/// Pheromone of all cells, row by row, or of their steps, eight to a cell; not a number where no
-/// ant can go.
+/// Pheromone of all cells, row by row, or of their steps, eight per cell; not a number where no ant
+/// can go.
 pub(super) struct Trails {
     layout: TrailLayout,
     values: Vec<f32>,
-    /// Places of the values that ants can change.
+    /// Ranges of the values that ants can change.
     spans: Vec<Range<usize>>,
     /// The least and the most of them.
     range: (f32, f32),
@@ -21,20 +21,20 @@ pub(super) struct Trails {
 const NOTHING: f32 = 1e-30;
 
 impl Trails {
-    /// Trails with an initial value by number of the cell; a step has that of the cell that it
+    /// Trails with an initial value by number of the cell; a step has the value of the cell that it
     /// leads to.
     pub(super) fn new(
         layout: TrailLayout,
         initial: &[f64],
-        ground: &Ground,
+        graph: &StepGraph,
         nodes: &[Node],
     ) -> Self {
         let per_cell = match layout {
             TrailLayout::Cells => 1,
             TrailLayout::Edges => 8,
         };
-        let mut values = vec![f32::NAN; ground.n_cols * ground.n_rows * per_cell];
-        for (at, &cell) in ground.cells.iter().enumerate() {
+        let mut values = vec![f32::NAN; graph.n_cols * graph.n_rows * per_cell];
+        for (at, &cell) in graph.cells.iter().enumerate() {
             let cell = cell as usize;
             match layout {
                 TrailLayout::Cells => values[cell] = initial[at] as f32,
@@ -45,7 +45,7 @@ impl Trails {
                 }
             }
         }
-        let spans = ground.spans.iter();
+        let spans = graph.spans.iter();
         let mut trails = Self {
             layout,
             values,
@@ -58,9 +58,9 @@ impl Trails {
         trails
     }
 
-    /// Changes all values, and finds the least and the most of the new ones.
+    /// Changes all values, and finds their new range.
     fn update(&mut self, change: impl Fn(f32) -> f32) {
-        // Either is the other operand where one is not a number.
+        // The minimum and the maximum ignore an operand that is not a number.
         let (mut low, mut high) = (f32::INFINITY, f32::NEG_INFINITY);
         for span in &self.spans {
             for tau in &mut self.values[span.clone()] {
@@ -72,14 +72,14 @@ impl Trails {
     }
 
     /// Sets the weights of all nodes to pheromone to the power of `alpha`, times desire.
-    pub(super) fn weigh(&self, alpha: f64, ground: &Ground, nodes: &mut [Node]) {
+    pub(super) fn weigh(&self, alpha: f64, graph: &StepGraph, nodes: &mut [Node]) {
         // Only proportions matter: relative to the strongest no power overflows.
         let (alpha, unit) = (alpha as f32, 1.0 / self.range.1);
-        for ((node, desire), &cell) in nodes.iter_mut().zip(&ground.desire).zip(&ground.cells) {
+        for ((node, desire), &cell) in nodes.iter_mut().zip(&graph.desire).zip(&graph.cells) {
             let cell = cell as usize;
-            // Where no step leads there is no desire, or one that nobody draws.
+            // A step that is not allowed has no desire, or is never drawn.
             let place = |step: usize| match self.layout {
-                TrailLayout::Cells => cell.wrapping_add_signed(ground.offsets[step]),
+                TrailLayout::Cells => cell.wrapping_add_signed(graph.offsets[step]),
                 TrailLayout::Edges => 8 * cell + step,
             };
             let tau = |step: usize| self.values.get(place(step)).copied().unwrap_or_default();
@@ -94,7 +94,7 @@ impl Trails {
         }
     }
 
-    /// Leaves the rest of all pheromone after a share `rho` has evaporated.
+    /// Evaporates a share `rho` of all pheromone.
     pub(super) fn evaporate(&mut self, rho: f64) {
         let kept = (1.0 - rho) as f32;
         for span in &self.spans {
@@ -104,28 +104,28 @@ impl Trails {
         }
     }
 
-    /// Adds to the pheromone along a way from the start, or takes from it.
-    pub(super) fn deposit(&mut self, ground: &Ground, steps: &[u8], amount: f64) {
+    /// Adds an amount, which may be negative, to the pheromone along a path from the start.
+    pub(super) fn deposit(&mut self, graph: &StepGraph, steps: &[u8], amount: f64) {
         let amount = amount as f32;
-        let mut at = ground.start;
+        let mut at = graph.start;
         match self.layout {
             TrailLayout::Cells => {
                 self.values[at] += amount;
                 for &step in steps {
-                    at = at.wrapping_add_signed(ground.offsets[usize::from(step)]);
+                    at = at.wrapping_add_signed(graph.offsets[usize::from(step)]);
                     self.values[at] += amount;
                 }
             }
             TrailLayout::Edges => {
                 for &step in steps {
                     self.values[8 * at + usize::from(step)] += amount;
-                    at = at.wrapping_add_signed(ground.offsets[usize::from(step)]);
+                    at = at.wrapping_add_signed(graph.offsets[usize::from(step)]);
                 }
             }
         }
     }
 
-    /// Keeps all pheromone between limits, and above nothing.
+    /// Keeps all pheromone between limits, and above [`NOTHING`].
     pub(super) fn clamp(&mut self, low: f64, high: f64) {
         let low = (low as f32).clamp(NOTHING, f32::MAX);
         let high = (high as f32).clamp(low, f32::MAX);
@@ -142,13 +142,5 @@ impl Trails {
             TrailLayout::Cells => Pheromone::Cells(&self.values),
             TrailLayout::Edges => Pheromone::Steps(&self.values),
         }
-    }
-
-    /// Pheromone by cell, that of a cell being the most on a step to it.
-    pub(super) fn by_cell(self, ground: &Ground) -> Vec<f32> {
-        if self.layout == TrailLayout::Cells {
-            return self.values;
-        }
-        pheromone_by_cell(&self.values, ground.n_cols)
     }
 }

@@ -2,15 +2,14 @@
 
 use super::config::EvolutionConfig;
 use super::fitness::{Evaluation, Score};
-use super::ground::Ground;
 use super::initial::first_population;
 use super::mutation::mutate;
 use super::problem::EvolutionProblem;
+use super::reachable::ReachableCells;
 use super::selection::{crossover, elite, tournament};
-use crate::colony::{History, Stop};
 use crate::map::Cell;
 use crate::numeric::{OutOfRange, Seed};
-use crate::progress::{Event, IterationRecord, Limits, PopulationView, Status};
+use crate::progress::{Event, History, IterationRecord, Limits, PopulationView, Stop, iterate};
 
 /// What a run of a population came to.
 #[derive(Clone, Debug)]
@@ -43,14 +42,14 @@ pub fn run(
     let mut evolution = Evolution {
         config,
         seed,
-        ground: Ground::new(problem.blocked(), problem.rule(), problem.start),
+        reachable: ReachableCells::new(problem.blocked(), problem.rule(), problem.start),
         evaluation: Evaluation::new(problem, config),
         population: Population::default(),
         best: None,
         n_stalled: 0,
         history: History::default(),
     };
-    let first = first_population(problem, config, &evolution.ground, seed);
+    let first = first_population(problem, config, &evolution.reachable, seed);
     let stop = evolution.run(first, limits)?;
     let scores = evolution.population.scores.iter();
     let least = scores.map(|score| (score.obstructed_cells - 1.0).max(0.0));
@@ -73,7 +72,7 @@ struct Population {
 struct Evolution<'a> {
     config: &'a EvolutionConfig,
     seed: Seed,
-    ground: Ground,
+    reachable: ReachableCells,
     evaluation: Evaluation<'a>,
     population: Population,
     best: Option<(Vec<Cell>, Score)>,
@@ -84,33 +83,34 @@ struct Evolution<'a> {
 
 impl Evolution<'_> {
     fn run(&mut self, first: Vec<Vec<Cell>>, limits: &mut Limits) -> Result<Stop, OutOfRange> {
-        let mut born = first;
-        for generation in 0..self.config.n_generations {
-            match limits.look() {
-                Err(Status::Cancelled) => return Ok(Stop::Cancelled),
-                Err(_) => return Ok(Stop::Deadline),
-                Ok(()) => {}
-            }
-            if generation > 0 {
-                born = self.offspring(generation);
-            }
-            let n_evaluated = limits.take(born.len() as u64) as usize;
-            let is_cut = n_evaluated < born.len();
-            if n_evaluated > 0 {
-                born.truncate(n_evaluated);
-                self.take_over(std::mem::take(&mut born))?;
-                self.remember();
-                self.report(generation, limits);
-            }
-            if is_cut {
-                return Ok(Stop::Budget);
-            }
-            let patience = self.config.stall_generations;
-            if patience > 0 && self.best.is_some() && self.n_stalled >= patience {
-                return Ok(Stop::Stall);
-            }
+        let mut first = Some(first);
+        iterate(self.config.n_generations, limits, |generation, limits| {
+            let born = first.take().unwrap_or_else(|| self.offspring(generation));
+            self.breed(generation, born, limits)
+        })
+    }
+
+    /// Lets new individuals into the population; returns why it was the last generation, if it was.
+    fn breed(
+        &mut self,
+        generation: u32,
+        mut born: Vec<Vec<Cell>>,
+        limits: &mut Limits,
+    ) -> Result<Option<Stop>, OutOfRange> {
+        let n_evaluated = limits.take(born.len() as u64) as usize;
+        let is_cut = n_evaluated < born.len();
+        if n_evaluated > 0 {
+            born.truncate(n_evaluated);
+            self.take_over(born)?;
+            self.remember();
+            self.report(generation, limits);
         }
-        Ok(Stop::Iterations)
+        if is_cut {
+            return Ok(Some(Stop::Budget));
+        }
+        let patience = self.config.stall_generations;
+        let is_stalled = patience > 0 && self.best.is_some() && self.n_stalled >= patience;
+        Ok(is_stalled.then_some(Stop::Stall))
     }
 
     /// The children of the population, each with random numbers of its own.
@@ -127,7 +127,7 @@ impl Evolution<'_> {
             } else {
                 lines[first].clone()
             };
-            mutate(&mut line, config, &self.ground, &mut random);
+            mutate(&mut line, config, &self.reachable, &mut random);
             line
         };
         (config.n_elite..config.n_individuals).map(child).collect()

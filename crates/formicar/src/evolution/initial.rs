@@ -2,8 +2,8 @@
 
 use super::config::{AstarSeeded, EvolutionConfig, InitialPopulation};
 use super::fitness::obstruction;
-use super::ground::Ground;
 use super::problem::EvolutionProblem;
+use super::reachable::ReachableCells;
 use crate::map::Cell;
 use crate::numeric::{RandomStream, Seed};
 use crate::smoothing::remove_redundant_nodes;
@@ -13,7 +13,7 @@ use crate::smoothing::remove_redundant_nodes;
 pub(super) fn first_population(
     problem: &EvolutionProblem,
     config: &EvolutionConfig,
-    ground: &Ground,
+    reachable: &ReachableCells,
     seed: Seed,
 ) -> Vec<Vec<Cell>> {
     let seeds = Seeds::new(problem, config);
@@ -21,8 +21,8 @@ pub(super) fn first_population(
         .map(|i| {
             let mut random = seed.stream([0, u64::from(i)]);
             match &seeds {
-                Some(seeds) if i < seeds.n_seeded => seeds.line(i, ground, &mut random),
-                _ => at_random(problem, config.n_via, ground, &mut random),
+                Some(seeds) if i < seeds.n_seeded => seeds.line(i, reachable, &mut random),
+                _ => at_random(problem, config.n_via, reachable, &mut random),
             }
         })
         .collect()
@@ -31,10 +31,10 @@ pub(super) fn first_population(
 fn at_random(
     problem: &EvolutionProblem,
     n_via: u32,
-    ground: &Ground,
+    reachable: &ReachableCells,
     random: &mut RandomStream,
 ) -> Vec<Cell> {
-    let via = (0..n_via).map(|_| ground.anywhere(random));
+    let via = (0..n_via).map(|_| reachable.anywhere(random));
     let from_start = std::iter::once(problem.start).chain(via);
     from_start.chain([problem.goal]).collect()
 }
@@ -71,7 +71,12 @@ impl Seeds {
     }
 
     /// The nodes, those of all individuals but the first moved where there is room.
-    fn line(&self, individual: u32, ground: &Ground, random: &mut RandomStream) -> Vec<Cell> {
+    fn line(
+        &self,
+        individual: u32,
+        reachable: &ReachableCells,
+        random: &mut RandomStream,
+    ) -> Vec<Cell> {
         let mut line = self.nodes.clone();
         if individual == 0 {
             return line;
@@ -79,7 +84,7 @@ impl Seeds {
         let last = line.len() - 1;
         for cell in &mut line[1..last] {
             let place = (f64::from(cell.col), f64::from(cell.row));
-            *cell = ground
+            *cell = reachable
                 .near(place, self.noise_cells, random)
                 .unwrap_or(*cell);
         }
@@ -143,15 +148,15 @@ mod tests {
 
     fn first(config: &EvolutionConfig, (moves, path): &(MoveMasks, GridSearch)) -> Vec<Vec<Cell>> {
         let problem = EvolutionProblem::new(moves, path, 0.2, [2.0, 0.7]).unwrap();
-        let ground = Ground::new(problem.blocked(), problem.rule(), problem.start);
-        first_population(&problem, config, &ground, Seed(1))
+        let reachable = ReachableCells::new(problem.blocked(), problem.rule(), problem.start);
+        first_population(&problem, config, &reachable, Seed(1))
     }
 
     #[test]
     fn a_third_is_seeded_and_the_rest_is_that_of_ga() {
-        let ground = slalom();
+        let slalom = slalom();
         let [random, seeded] =
-            [EvolutionConfig::ga(), EvolutionConfig::aga()].map(|config| first(&config, &ground));
+            [EvolutionConfig::ga(), EvolutionConfig::aga()].map(|config| first(&config, &slalom));
         assert_eq!(random.len(), 100);
         assert!(random.iter().all(|line| line.len() == 5));
         assert_eq!(random[33..], seeded[33..]);
@@ -160,8 +165,8 @@ mod tests {
 
     #[test]
     fn the_path_is_brought_to_the_number_of_via_points_allowed() {
-        let ground = slalom();
-        let nodes = remove_redundant_nodes(ground.0.blocked(), ground.0.rule(), &ground.1.path);
+        let slalom = slalom();
+        let nodes = remove_redundant_nodes(slalom.0.blocked(), slalom.0.rule(), &slalom.1.path);
         let with = |n_via_min: u32, n_via_max: u32| {
             let config = EvolutionConfig {
                 n_via: n_via_min,
@@ -169,7 +174,7 @@ mod tests {
                 n_via_max,
                 ..EvolutionConfig::aga()
             };
-            first(&config, &ground).swap_remove(0)
+            first(&config, &slalom).swap_remove(0)
         };
         assert!((5..=8).contains(&(nodes.len() - 2)), "{nodes:?}");
         assert_eq!(with(1, 8), nodes);
@@ -183,7 +188,7 @@ mod tests {
             },
             ..GridSearch::default()
         };
-        let standing = first(&EvolutionConfig::aga(), &(ground.0, straight));
+        let standing = first(&EvolutionConfig::aga(), &(slalom.0, straight));
         assert_eq!(standing[0], [Cell::new(0, 0); 3]);
     }
 }

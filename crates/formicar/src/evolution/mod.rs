@@ -9,11 +9,11 @@
 mod config;
 mod engine;
 mod fitness;
-mod ground;
 mod initial;
 mod mutation;
 mod obstruction;
 mod problem;
+mod reachable;
 mod selection;
 
 pub use config::{AstarSeeded, EvolutionConfig, InitialPopulation, Mutations};

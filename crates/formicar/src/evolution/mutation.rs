@@ -1,7 +1,7 @@
 //! How children change: a via point moves, comes, goes, or settles between its neighbors.
 
 use super::config::EvolutionConfig;
-use super::ground::Ground;
+use super::reachable::ReachableCells;
 use crate::map::Cell;
 use crate::numeric::RandomStream;
 
@@ -9,51 +9,56 @@ use crate::numeric::RandomStream;
 pub(super) fn mutate(
     line: &mut Vec<Cell>,
     config: &EvolutionConfig,
-    ground: &Ground,
+    reachable: &ReachableCells,
     random: &mut RandomStream,
 ) {
     let chances = &config.mutation;
     if random.unit() < chances.r#move {
         move_one(
             line,
-            chances.move_reach * ground.side_cells(),
-            ground,
+            chances.move_reach * reachable.side_cells(),
+            reachable,
             random,
         );
     }
     if random.unit() < chances.insert && n_via(line) < config.n_via_max as usize {
-        insert(line, ground, random);
+        insert(line, reachable, random);
     }
     if random.unit() < chances.delete && n_via(line) > config.n_via_min as usize {
         line.remove(any_via(line, random));
     }
     if random.unit() < chances.smooth {
-        smooth(line, ground, random);
+        smooth(line, reachable, random);
     }
 }
 
 /// A via point moves; where a few draws find no place, it stays.
-fn move_one(line: &mut [Cell], reach_cells: f64, ground: &Ground, random: &mut RandomStream) {
+fn move_one(
+    line: &mut [Cell],
+    reach_cells: f64,
+    reachable: &ReachableCells,
+    random: &mut RandomStream,
+) {
     let which = any_via(line, random);
-    if let Some(cell) = ground.near(place(line[which]), reach_cells, random) {
+    if let Some(cell) = reachable.near(place(line[which]), reach_cells, random) {
         line[which] = cell;
     }
 }
 
 /// A via point comes in beside the middle of a segment, at most half its length off.
-fn insert(line: &mut Vec<Cell>, ground: &Ground, random: &mut RandomStream) {
+fn insert(line: &mut Vec<Cell>, reachable: &ReachableCells, random: &mut RandomStream) {
     let after = 1 + random.below(line.len() - 1);
     let (a, b) = (place(line[after - 1]), place(line[after]));
     let middle = (0.5 * (a.0 + b.0), 0.5 * (a.1 + b.1));
     let (dx, dy) = (b.0 - a.0, b.1 - a.1);
     let reach_cells = 0.5 * (dx * dx + dy * dy).sqrt();
-    if let Some(cell) = ground.near(middle, reach_cells, random) {
+    if let Some(cell) = reachable.near(middle, reach_cells, random) {
         line.insert(after, cell);
     }
 }
 
 /// A via point goes halfway to the middle between its neighbors, if that can be reached.
-fn smooth(line: &mut [Cell], ground: &Ground, random: &mut RandomStream) {
+fn smooth(line: &mut [Cell], reachable: &ReachableCells, random: &mut RandomStream) {
     let which = any_via(line, random);
     let [before, here, after] = [which - 1, which, which + 1].map(|i| place(line[i]));
     let settled = |before: f64, here: f64, after: f64| 0.25 * before + 0.5 * here + 0.25 * after;
@@ -61,7 +66,7 @@ fn smooth(line: &mut [Cell], ground: &Ground, random: &mut RandomStream) {
         settled(before.0, here.0, after.0),
         settled(before.1, here.1, after.1),
     );
-    if let Some(cell) = ground.at(col, row) {
+    if let Some(cell) = reachable.at(col, row) {
         line[which] = cell;
     }
 }
@@ -93,9 +98,15 @@ mod tests {
             mutation,
             ..EvolutionConfig::ga()
         };
-        let ground = Ground::new(&BitGrid::new(40, 20), DiagonalRule::NoObstacles, line[0]);
+        let reachable =
+            ReachableCells::new(&BitGrid::new(40, 20), DiagonalRule::NoObstacles, line[0]);
         let mut line = line.to_vec();
-        mutate(&mut line, &config, &ground, &mut Seed(seed).stream([0, 0]));
+        mutate(
+            &mut line,
+            &config,
+            &reachable,
+            &mut Seed(seed).stream([0, 0]),
+        );
         line
     }
 

@@ -1,9 +1,9 @@
-//! What an evolution is about: the ground, a shortest path over it, and who shall drive.
+//! The problem that an evolution solves: a grid, a shortest path over it, and the vehicle.
 
 use crate::map::{BitGrid, Cell, DiagonalRule, MoveMasks};
 use crate::search::{GridSearch, SearchError, check_end};
 
-/// A start, a goal and the ground between them.
+/// Start and goal on a grid with its allowed moves.
 #[derive(Clone, Debug)]
 pub struct EvolutionProblem<'a> {
     pub(super) moves: &'a MoveMasks,

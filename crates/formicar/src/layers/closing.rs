@@ -1,6 +1,6 @@
 //! A map whose pockets are closed one by one, each on trial first.
 
-use super::detour::{Detours, Ground, OutOfSteps};
+use super::detour::{Detours, OutOfSteps, PocketMoves};
 use super::pockets::Run;
 use super::u_shapes::PocketFate;
 use crate::map::{BitGrid, Cell, DiagonalRule, MoveMasks, STEPS, set_bits};
@@ -149,12 +149,12 @@ impl Closing {
         if !pocket.cells.iter().any(|&cell| self.is_shut(cell)) {
             return PocketFate::WouldHarm;
         }
-        let ground = Ground {
+        let moves = PocketMoves {
             open: &self.open,
             shut: &self.shut,
             pocket: &self.pocket,
         };
-        match self.detours.are_needed(&ground, rim, pocket.cells.len()) {
+        match self.detours.are_needed(&moves, rim, pocket.cells.len()) {
             Ok(false) => PocketFate::Closed,
             Ok(true) => PocketFate::WouldHarm,
             Err(OutOfSteps) => PocketFate::TooIntricate,

@@ -4,8 +4,8 @@ use crate::map::{BitGrid, Cell, MoveMasks, STEP_COSTS, STEPS, set_bits};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// The ground around a pocket.
-pub(super) struct Ground<'a> {
+/// Moves around a pocket, open and closed.
+pub(super) struct PocketMoves<'a> {
     /// Moves with the pocket open.
     pub(super) open: &'a MoveMasks,
     /// Moves with it closed, or that part of it which is to be closed.
@@ -57,11 +57,11 @@ impl Detours {
     /// are all that need a look.
     pub(super) fn are_needed(
         &mut self,
-        ground: &Ground,
+        moves: &PocketMoves,
         rim: &[Cell],
         n_pocket_cells: usize,
     ) -> Result<bool, OutOfSteps> {
-        if is_straight(ground.shut, rim) {
+        if is_straight(moves.shut, rim) {
             return Ok(false);
         }
         let granted = STEPS_AT_LEAST + STEPS_PER_CELL * n_pocket_cells;
@@ -71,7 +71,7 @@ impl Detours {
         for (i, &cell) in rim.iter().enumerate() {
             self.targets.remove(cell);
             if matches!(answer, Ok(false)) {
-                answer = self.search(ground, cell, rim.len() - i - 1, &mut n_steps);
+                answer = self.search(moves, cell, rim.len() - i - 1, &mut n_steps);
                 self.clear();
             }
         }
@@ -82,14 +82,14 @@ impl Detours {
     /// settled, or nothing of interest waits.
     fn search(
         &mut self,
-        ground: &Ground,
+        moves: &PocketMoves,
         source: Cell,
         mut n_targets: usize,
         n_steps: &mut usize,
     ) -> Result<bool, OutOfSteps> {
-        self.reach(ground, source, 0);
+        self.reach(moves, source, 0);
         while n_targets > 0 {
-            let Some((label, cell)) = self.settle(ground) else {
+            let Some((label, cell)) = self.settle(moves) else {
                 break;
             };
             *n_steps = n_steps.checked_sub(1).ok_or(OutOfSteps)?;
@@ -99,17 +99,17 @@ impl Detours {
                 }
                 n_targets -= 1;
             }
-            self.expand(ground, label, cell);
+            self.expand(moves, label, cell);
         }
         Ok(false)
     }
 
     /// Takes the cell with the least label that was not settled yet.
-    fn settle(&mut self, ground: &Ground) -> Option<(u32, Cell)> {
+    fn settle(&mut self, moves: &PocketMoves) -> Option<(u32, Cell)> {
         while self.n_inner > 0 {
             let Reverse((label, index)) = self.queue.pop()?;
-            let cell = ground.open.cell(index);
-            self.n_inner -= usize::from(is_inner(ground, label, cell));
+            let cell = moves.open.cell(index);
+            self.n_inner -= usize::from(is_inner(moves, label, cell));
             if self.labels[index] == !label {
                 return Some((label, cell));
             }
@@ -117,8 +117,8 @@ impl Detours {
         None
     }
 
-    fn expand(&mut self, ground: &Ground, label: u32, cell: Cell) {
-        let (open, shut) = (ground.open.moves(cell), ground.shut.moves(cell));
+    fn expand(&mut self, moves: &PocketMoves, label: u32, cell: Cell) {
+        let (open, shut) = (moves.open.moves(cell), moves.shut.moves(cell));
         for step in set_bits(open.into()) {
             let is_forbidden = u32::from(shut >> step & 1 == 0);
             let (dx, dy) = STEPS[step as usize];
@@ -127,15 +127,15 @@ impl Detours {
                 cell.row.wrapping_add_signed(dy),
             );
             self.reach(
-                ground,
+                moves,
                 next,
                 (label | is_forbidden) + 2 * STEP_COSTS[step as usize],
             );
         }
     }
 
-    fn reach(&mut self, ground: &Ground, cell: Cell, label: u32) {
-        let index = ground.open.index(cell);
+    fn reach(&mut self, moves: &PocketMoves, cell: Cell, label: u32) {
+        let index = moves.open.index(cell);
         if !label <= self.labels[index] {
             return;
         }
@@ -144,7 +144,7 @@ impl Detours {
         }
         self.labels[index] = !label;
         self.queue.push(Reverse((label, index)));
-        self.n_inner += usize::from(is_inner(ground, label, cell));
+        self.n_inner += usize::from(is_inner(moves, label, cell));
     }
 
     fn clear(&mut self) {
@@ -156,15 +156,15 @@ impl Detours {
     }
 }
 
-fn is_inner(ground: &Ground, label: u32, cell: Cell) -> bool {
-    label == 0 || label % 2 == 1 || ground.pocket.get(cell.col as usize, cell.row as usize)
+fn is_inner(moves: &PocketMoves, label: u32, cell: Cell) -> bool {
+    label == 0 || label % 2 == 1 || moves.pocket.get(cell.col as usize, cell.row as usize)
 }
 
 /// Whether the rim is a digital straight line that stays open: then nobody needs a detour.
 ///
 /// From cell to cell it takes steps of two directions, east and north say. One of the two never
 /// comes twice in a row, and wherever they take turns the diagonal step is allowed. So along the
-/// rim as many steps can be diagonal as between the same two cells on free ground, and no way
+/// rim as many steps can be diagonal as between the same two cells on free cells, and no way
 /// through the pocket is shorter.
 fn is_straight(shut: &MoveMasks, rim: &[Cell]) -> bool {
     let mut cells = rim.to_vec();
@@ -271,11 +271,11 @@ mod tests {
                 steps.any(|step| is_pocket(&index.wrapping_add_signed(open.offsets()[step as usize])))
             };
             let rim: Vec<Cell> = outside.iter().map(|&i| open.cell(i)).filter(leads_in).collect();
-            let ground = Ground { open: &open, shut: &shut, pocket: &pocket };
+            let around = PocketMoves { open: &open, shut: &shut, pocket: &pocket };
             let mut detours = Detours::new(8, 8);
             for _ in 0..2 {
                 // The second time with the memory of the first.
-                let found = detours.are_needed(&ground, &rim, 1000).unwrap();
+                let found = detours.are_needed(&around, &rim, 1000).unwrap();
                 prop_assert_eq!(found, expected);
             }
         }

@@ -1,6 +1,7 @@
-//! Where a grid lies in the world: cells to metres and back.
+//! The position of a grid in the world: cells to metres and back.
 
-use super::{Cell, MapError};
+use super::cell::Cell;
+use super::error::{MAX_CELLS, MapError};
 use crate::geometry::{Point2, Pose2};
 
 /// Size, resolution and origin of a grid.
@@ -14,9 +15,6 @@ pub struct GridFrame {
     resolution_m: f64,
     origin: Pose2,
 }
-
-/// The most cells that a grid may have: 2^28, about 16 000 x 16 000.
-pub const MAX_CELLS: usize = 1 << 28;
 
 impl GridFrame {
     /// A frame of `n_cols` x `n_rows` cells of `resolution_m` metres.

@@ -1,89 +1,13 @@
-//! The occupancy grid and what can be wrong with one.
+//! The occupancy grid.
 
-use super::{BitGrid, Cell, CellRegion, GridFrame};
+use super::bit_grid::BitGrid;
+use super::cell::Cell;
+use super::error::MapError;
+use super::frame::GridFrame;
+use super::region::CellRegion;
+use super::values::{FREE, OCCUPIED, UNKNOWN, check_values, lethal};
 use crate::geometry::{Point2, Pose2};
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
-
-pub use super::frame::MAX_CELLS;
-
-/// Value of a free cell.
-pub const FREE: i8 = 0;
-/// Value of an occupied (lethal) cell.
-pub const OCCUPIED: i8 = 100;
-/// Value of an unknown cell.
-pub const UNKNOWN: i8 = -1;
-
-/// What is wrong with a map.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum MapError {
-    /// No cells.
-    #[error("the map has {n_cols} x {n_rows} cells; at least 1 x 1 is needed")]
-    Empty {
-        /// Columns given.
-        n_cols: usize,
-        /// Rows given.
-        n_rows: usize,
-    },
-    /// Too many cells.
-    #[error(
-        "the map has {n_cols} x {n_rows} cells; the limit is {MAX_CELLS} in all; hint: crop it or use a coarser resolution"
-    )]
-    TooLarge {
-        /// Columns given.
-        n_cols: usize,
-        /// Rows given.
-        n_rows: usize,
-    },
-    /// A resolution that is no length.
-    #[error("resolution {resolution_m} m per cell; it must be a positive finite number")]
-    BadResolution {
-        /// The resolution given.
-        resolution_m: f64,
-    },
-    /// An origin that is no pose.
-    #[error("origin ({x}, {y}, {yaw}); all three must be finite numbers")]
-    BadOrigin {
-        /// Metres.
-        x: f64,
-        /// Metres.
-        y: f64,
-        /// Radians.
-        yaw: f64,
-    },
-    /// As many values as cells are needed.
-    #[error("{n_values} cell values for {n_cols} x {n_rows} cells")]
-    WrongCellCount {
-        /// Values given.
-        n_values: usize,
-        /// Columns.
-        n_cols: usize,
-        /// Rows.
-        n_rows: usize,
-    },
-    /// A value outside -1..=100.
-    #[error("cell ({}, {}) has value {value}; allowed are -1 (unknown) and 0 (free) to 100 (occupied)", cell.col, cell.row)]
-    BadValue {
-        /// Where.
-        cell: Cell,
-        /// The value found.
-        value: i8,
-    },
-    /// A rectangle of cells that the map does not have.
-    #[error(
-        "region of {} x {} cells from ({}, {}): the map has {n_cols} x {n_rows} cells; hint: leave out what lies off the map",
-        region.n_cols, region.n_rows, region.corner.col, region.corner.row
-    )]
-    RegionOffMap {
-        /// The rectangle given.
-        region: CellRegion,
-        /// Columns of the map.
-        n_cols: usize,
-        /// Rows of the map.
-        n_rows: usize,
-    },
-}
 
 /// How unknown cells count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -216,22 +140,5 @@ impl OccupancyGrid {
     /// order, convex or not. A corner that is not finite makes the polygon cover the whole map.
     pub fn fill_polygon(&mut self, corners: &[Point2], value: i8) {
         super::raster::touched_cells(&self.frame, corners, |index| self.values[index] = value);
-    }
-}
-
-/// Whether a value stops the vehicle.
-pub(crate) fn lethal(value: i8) -> bool {
-    !(0..OCCUPIED).contains(&value)
-}
-
-/// Whether all values are in -1..=100; a place in the list is a cell.
-pub(super) fn check_values(values: &[i8], cell: impl Fn(usize) -> Cell) -> Result<(), MapError> {
-    let is_bad = |value: &i8| !(UNKNOWN..=OCCUPIED).contains(value);
-    match values.iter().position(is_bad) {
-        Some(i) => Err(MapError::BadValue {
-            cell: cell(i),
-            value: values[i],
-        }),
-        None => Ok(()),
     }
 }

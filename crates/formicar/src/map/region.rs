@@ -1,7 +1,6 @@
-//! A rectangle of cells, and new values for one.
+//! A rectangle of cells.
 
-use super::grid::check_values;
-use super::{Cell, GridFrame, MapError};
+use super::cell::Cell;
 use std::ops::Range;
 
 /// A rectangle of cells.
@@ -69,32 +68,6 @@ impl CellRegion {
             &both(self.cols(), other.cols()),
             &both(self.rows(), other.rows()),
         )
-    }
-
-    /// Whether values can be put into it on a map.
-    ///
-    /// # Errors
-    /// A part of it off the map, another number of values than cells, or a value outside
-    /// -1..=100.
-    pub fn check(&self, frame: &GridFrame, values: &[i8]) -> Result<(), MapError> {
-        if self.cols().end > frame.n_cols() || self.rows().end > frame.n_rows() {
-            return Err(MapError::RegionOffMap {
-                region: *self,
-                n_cols: frame.n_cols(),
-                n_rows: frame.n_rows(),
-            });
-        }
-        if values.len() != self.n_cols * self.n_rows {
-            return Err(MapError::WrongCellCount {
-                n_values: values.len(),
-                n_cols: self.n_cols,
-                n_rows: self.n_rows,
-            });
-        }
-        check_values(values, |i| {
-            let (col, row) = (i % self.n_cols, i / self.n_cols);
-            Cell::new(self.corner.col + col as u32, self.corner.row + row as u32)
-        })
     }
 }
 

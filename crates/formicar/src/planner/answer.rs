@@ -3,10 +3,9 @@
 use super::path_document::PathDocument;
 use super::{Explanation, Outcome, PlanError, PlannerConfig, RequestDocument, Stages};
 use crate::collision::ObstacleMap;
-use crate::colony::Stop;
 use crate::metrics::PathMetrics;
 use crate::numeric::Seed;
-use crate::progress::{IterationRecord, Status};
+use crate::progress::{IterationRecord, Status, Stop};
 use crate::scenario::{ErrorCode, Request};
 use crate::validation::Report;
 use crate::vehicle::{Motion, Vehicle, VehicleParameters};

@@ -3,11 +3,11 @@
 use super::curve::Origin;
 use super::run::{Ended, Found};
 use super::{PlanError, Planner, Stages};
-use crate::colony::{ColonyProblem, ColonyRun, RunError, Stop, run};
+use crate::colony::{ColonyProblem, ColonyRun, RunError, run};
 use crate::layers::Layers;
 use crate::map::{Cell, MoveMasks};
 use crate::numeric::Seed;
-use crate::progress::{Event, Limits, Status};
+use crate::progress::{Event, Limits, Status, Stop};
 use crate::scenario::Request;
 use crate::search::SearchError;
 

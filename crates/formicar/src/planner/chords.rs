@@ -2,17 +2,17 @@
 
 use super::run::{Ended, Found};
 use super::{PlanError, Planner, PlannerName, Stages};
+use crate::colony::RunError;
 use crate::colony::chord::{ChordConfig, ChordProblem, Safety, run_chords};
 use crate::colony::dead_end::DeadEnd;
-use crate::colony::{RunError, Stop};
 use crate::geometry::Pose2;
 use crate::map::{BitGrid, Cell, DiagonalRule, MoveMasks, ring};
 use crate::numeric::Seed;
 use crate::path::GridPath;
-use crate::progress::{Event, Limits, Status};
+use crate::progress::{Event, Limits, Status, Stop};
 use crate::scenario::{Request, StartHeading};
 use crate::search::SearchError;
-use crate::smoothing::{Ground, SmoothingError, smooth};
+use crate::smoothing::{SmoothingError, SmoothingProblem, smooth};
 use crate::vehicle::Motion;
 
 /// How many times as many steps back are allowed when ants have failed.
@@ -139,7 +139,7 @@ impl Planner {
         ways: &[GridPath],
         mut stages: Stages,
     ) -> Result<Found, Ended> {
-        let ground = Ground {
+        let problem = SmoothingProblem {
             obstacles: &self.obstacles,
             vehicle: &self.vehicle,
             blocked: self.obstacles.lethal(),
@@ -150,8 +150,8 @@ impl Planner {
         for way in ways {
             let nodes = config
                 .redundant_nodes
-                .apply(ground.blocked, ground.rule, way);
-            match smooth(&ground, config, request, &nodes) {
+                .apply(problem.blocked, problem.rule, way);
+            match smooth(&problem, config, request, &nodes) {
                 Ok(smoothed) => {
                     stages.grid_path = Some(way.clone());
                     stages.nodes = nodes;

@@ -6,9 +6,9 @@ use crate::map::{BitGrid, DiagonalRule};
 use crate::path::GridPath;
 use crate::progress::Status;
 use crate::scenario::Request;
-use crate::smoothing::{Ground, smooth};
+use crate::smoothing::{SmoothingProblem, smooth};
 
-/// On which ground a way was found, and by whom.
+/// On which problem a way was found, and by whom.
 pub(super) struct Origin<'a> {
     /// The cells that it avoids.
     pub(super) blocked: &'a BitGrid,
@@ -30,7 +30,7 @@ impl Planner {
         way: &GridPath,
         origin: &Origin,
     ) -> Result<Found, Ended> {
-        let ground = Ground {
+        let problem = SmoothingProblem {
             obstacles: &self.obstacles,
             vehicle: &self.vehicle,
             blocked: origin.blocked,
@@ -39,8 +39,8 @@ impl Planner {
         let config = &self.config.smoothing;
         let nodes = config
             .redundant_nodes
-            .apply(ground.blocked, ground.rule, way);
-        let smoothed = smooth(&ground, config, request, &nodes);
+            .apply(problem.blocked, problem.rule, way);
+        let smoothed = smooth(&problem, config, request, &nodes);
         stages.nodes = nodes;
         match smoothed {
             Ok(smoothed) => {

@@ -3,12 +3,11 @@
 use super::cells::PreparedCells;
 use super::run::{Ended, Found};
 use super::{ConfigError, PlanError, Planner, PlannerName, Stages};
-use crate::colony::Stop;
 use crate::evolution::{EvolutionProblem, EvolutionRun, run};
 use crate::map::Cell;
 use crate::numeric::{OutOfRange, Seed};
 use crate::path::GridPath;
-use crate::progress::{Event, Limits, Status};
+use crate::progress::{Event, Limits, Status, Stop};
 use crate::scenario::{Request, StartHeading};
 use crate::search::{GridSearch, SearchError, astar};
 

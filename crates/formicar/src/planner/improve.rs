@@ -68,8 +68,8 @@ impl Planner {
         let price = |position: Point2| soft.map_or(0.0, |costs| costs.price_at(position));
         let task = ImproveProblem {
             obstacles: &self.obstacles,
-            body: problem.ground().body(),
-            radius_m: problem.ground().radius_m(),
+            body: problem.map().body(),
+            radius_m: problem.map().radius_m(),
             motion: problem.motion(),
             cost: &self.config.cost,
             soft: soft.is_some().then_some(&price),

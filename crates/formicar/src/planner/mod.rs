@@ -45,7 +45,7 @@ use crate::map::OccupancyGrid;
 use crate::numeric::Seed;
 use crate::progress::{Limits, Observer};
 use crate::scenario::{Request, Scenario};
-use crate::search::DriveGround;
+use crate::search::DrivableMap;
 use crate::vehicle::Vehicle;
 use std::sync::Arc;
 
@@ -61,7 +61,7 @@ pub struct Planner {
     /// What searches over cells prepare and reuse.
     cells: Option<cells::PreparedCells>,
     /// What searches that drive prepare and reuse.
-    drive_ground: Option<Arc<DriveGround>>,
+    drive_ground: Option<Arc<DrivableMap>>,
     /// Which parts of the ground hang together for the vehicle's rear axle.
     axle_ground: Option<Arc<sealed::AxleGround>>,
 }

@@ -8,7 +8,7 @@ use crate::numeric::Seed;
 use crate::path::CurvePath;
 use crate::progress::{Event, Limits, Status};
 use crate::scenario::{Request, StartHeading};
-use crate::search::{DriveGround, DriveProblem, hybrid_astar};
+use crate::search::{DrivableMap, DriveProblem, hybrid_astar};
 use crate::validation::judge;
 use crate::vehicle::Motion;
 use std::sync::Arc;
@@ -108,12 +108,12 @@ impl Planner {
     }
 
     /// The map prepared for the vehicle's motions, once.
-    pub(super) fn drive_ground(&mut self) -> Result<Arc<DriveGround>, PlanError> {
+    pub(super) fn drive_ground(&mut self) -> Result<Arc<DrivableMap>, PlanError> {
         if let Some(ground) = &self.drive_ground {
             return Ok(ground.clone());
         }
         let (obstacles, config) = (self.obstacles.clone(), &self.config.hybrid_astar);
-        let ground = Arc::new(DriveGround::new(obstacles, &self.vehicle, config)?);
+        let ground = Arc::new(DrivableMap::new(obstacles, &self.vehicle, config)?);
         Ok(self.drive_ground.insert(ground).clone())
     }
 

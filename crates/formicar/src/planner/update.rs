@@ -2,7 +2,7 @@
 
 use super::{PlanError, Planner};
 use crate::map::{CellRegion, regrow};
-use crate::search::{DriveGround, GroundParts};
+use crate::search::{DrivableMap, DrivableMapParts};
 use std::sync::Arc;
 
 impl Planner {
@@ -20,9 +20,9 @@ impl Planner {
     pub fn update_map(&mut self, region: CellRegion, values: &[i8]) -> Result<(), PlanError> {
         region.check(self.obstacles.frame(), values)?;
         // While the ground holds the map too, it could not be changed where it is.
-        let ground = self.drive_ground.take().map(DriveGround::into_parts);
+        let ground = self.drive_ground.take().map(DrivableMap::into_parts);
         let changed = Arc::make_mut(&mut self.obstacles).update(&region, values)?;
-        let on_map = |parts: GroundParts| parts.on(self.obstacles.clone(), changed.as_ref());
+        let on_map = |parts: DrivableMapParts| parts.on(self.obstacles.clone(), changed.as_ref());
         self.drive_ground = ground.map(on_map).map(Arc::new);
         let Some(changed) = changed else {
             return Ok(());

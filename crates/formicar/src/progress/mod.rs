@@ -2,13 +2,17 @@
 
 mod driving;
 mod frames;
+mod history;
 mod iteration;
 mod population;
 
 pub use driving::{DriveView, DriveWay, ReachedView};
 pub use frames::{AntFrame, AntFrames, Traffic, pheromone_by_cell};
+pub use history::{History, Stop};
 pub use iteration::{AntWays, ColonyView, IterationRecord, Pheromone, path_of};
 pub use population::PopulationView;
+
+pub(crate) use history::iterate;
 
 use crate::path::CurvePath;
 use crate::scenario::ErrorCode;

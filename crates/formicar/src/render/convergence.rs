@@ -3,9 +3,8 @@
 use super::chart::{Axis, Chart, Series, Side};
 use super::palette::{self, Color};
 use super::style::Dash;
-use crate::colony::History;
 use crate::geometry::Point2;
-use crate::progress::IterationRecord;
+use crate::progress::{History, IterationRecord};
 
 const COSTS_PX: f64 = 360.0;
 const ARRIVED_PX: f64 = 110.0;

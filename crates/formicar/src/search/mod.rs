@@ -16,7 +16,7 @@ mod wave;
 pub use astar::{AstarWorkspace, astar};
 pub use cost::{DIAGONAL_COST, STRAIGHT_COST};
 pub use drive::{
-    DriveGround, DriveProblem, Driven, GroundParts, Guide, HybridAstarConfig, Inflation, Side,
+    DrivableMap, DrivableMapParts, DriveProblem, Driven, Guide, HybridAstarConfig, Inflation, Side,
     State,
 };
 pub use goal_field::GoalField;

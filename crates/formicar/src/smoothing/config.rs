@@ -1,6 +1,6 @@
 //! Parameters of smoothing.
 
-use super::RedundantNodes;
+use super::redundant_nodes::RedundantNodes;
 use crate::numeric::{OutOfRange, check_range};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

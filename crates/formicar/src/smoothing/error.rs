@@ -1,6 +1,6 @@
 //! Why a polyline does not become a drivable curve.
 
-use super::Corners;
+use super::config::Corners;
 use crate::numeric::OutOfRange;
 use crate::scenario::Endpoint;
 use thiserror::Error;

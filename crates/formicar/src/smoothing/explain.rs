@@ -1,26 +1,27 @@
-//! What stopped a chain: the first place on the way that could not be passed.
+//! The first place on the polyline that no chain could pass.
 
 use super::chain::Stuck;
+use super::error::{CornerProblem, SmoothingError};
 use super::polyline::Leg;
 use super::roadmap::{Facing, Member, Roadmap};
-use super::task::Task;
-use super::{CornerProblem, SmoothingError, TwoTurning};
+use super::task::RoundingTask;
+use super::two_turning::TwoTurning;
 use crate::geometry::{Arc, Point2, Pose2};
 use crate::scenario::Endpoint;
 
 /// Poses per arc at which overlaps are measured.
 const N_SAMPLES: u32 = 16;
 
-/// What was reached of the farthest leg, by the vehicle in one facing.
+/// The farthest leg that was reached, by the vehicle in one facing.
 struct Farthest {
     leg: usize,
     facing: Facing,
-    /// The first and the last place reached.
-    places: [usize; 2],
+    /// The first and the last junction reached.
+    junctions: [usize; 2],
 }
 
-/// Why no chain reached the goal.
-pub(super) fn explain(task: &Task, map: &Roadmap, stuck: &Stuck) -> SmoothingError {
+/// The reason why no chain reached the goal.
+pub(super) fn explain(task: &RoundingTask, map: &Roadmap, stuck: &Stuck) -> SmoothingError {
     let heading = |which| SmoothingError::Heading {
         which,
         reach_m: task.reach_m().min(map.line.length_m()),
@@ -31,13 +32,13 @@ pub(super) fn explain(task: &Task, map: &Roadmap, stuck: &Stuck) -> SmoothingErr
     let leg = farthest.leg;
     if leg == map.line.n_corners() {
         return if task.ends.goal_is_free {
-            straight(task, map, farthest.places[1])
+            straight(task, map, farthest.junctions[1])
         } else {
             heading(Endpoint::Goal)
         };
     }
     let Some(problem) = problem(task, map, &farthest) else {
-        return straight(task, map, farthest.places[1]);
+        return straight(task, map, farthest.junctions[1]);
     };
     let place = world(task, map.line.points[leg + 1]);
     SmoothingError::Corner {
@@ -51,26 +52,25 @@ pub(super) fn explain(task: &Task, map: &Roadmap, stuck: &Stuck) -> SmoothingErr
 }
 
 fn farthest(map: &Roadmap, stuck: &Stuck) -> Option<Farthest> {
-    let &(place, _) = stuck.reached.last()?;
-    let leg = map.places[place].leg;
+    let &(junction, _) = stuck.reached.last()?;
+    let leg = map.junctions[junction].leg;
     let on_leg = |facing: Facing| {
         let on_leg = stuck.reached.iter();
-        on_leg.filter(move |&&(place, f)| f == facing && map.places[place].leg == leg)
+        on_leg.filter(move |&&(junction, f)| f == facing && map.junctions[junction].leg == leg)
     };
-    let facings = [Facing::Along, Facing::Against];
-    facings.into_iter().find_map(|facing| {
+    Facing::ALL.into_iter().find_map(|facing| {
         let (first, _) = on_leg(facing).next()?;
         let (last, _) = on_leg(facing).next_back()?;
         Some(Farthest {
             leg,
             facing,
-            places: [*first, *last],
+            junctions: [*first, *last],
         })
     })
 }
 
-fn straight(task: &Task, map: &Roadmap, place: usize) -> SmoothingError {
-    let place = world(task, map.pose(place, Facing::Along).position());
+fn straight(task: &RoundingTask, map: &Roadmap, junction: usize) -> SmoothingError {
+    let place = world(task, map.pose(junction, Facing::Along).position());
     SmoothingError::Straight {
         x: place.x,
         y: place.y,
@@ -78,14 +78,13 @@ fn straight(task: &Task, map: &Roadmap, place: usize) -> SmoothingError {
     }
 }
 
-fn world(task: &Task, place: Point2) -> Point2 {
+fn world(task: &RoundingTask, place: Point2) -> Point2 {
     let frame = task.obstacles.frame();
     frame.to_world(Pose2::at(place, 0.0)).position()
 }
 
-/// What is wrong with the corner at the end of a leg; nothing where the straight way to it is at
-/// fault.
-fn problem(task: &Task, map: &Roadmap, farthest: &Farthest) -> Option<CornerProblem> {
+/// The problem of the corner at the end of a leg; none where the straight way to it is at fault.
+fn problem(task: &RoundingTask, map: &Roadmap, farthest: &Farthest) -> Option<CornerProblem> {
     let (corner, facing) = (farthest.leg, farthest.facing);
     let members = || map.members.iter().filter(|m| m.corner == corner);
     if members().next().is_none() {
@@ -99,23 +98,23 @@ fn problem(task: &Task, map: &Roadmap, farthest: &Farthest) -> Option<CornerProb
     let free: Vec<&Member> = members().filter(is_free).collect();
     if free.is_empty() {
         return Some(CornerProblem::Touches {
-            depth_m: least_overlap_m(task, map, (members(), facing)),
+            depth_m: least_overlap_m(task, map, members(), facing),
         });
     }
-    // The turns of free members begin where the chains did not get to.
-    let first = farthest.places[0];
-    if free.iter().any(|member| member.places[0] > first) {
+    // The turns of free members begin before the first junction that the chains reached.
+    let first = farthest.junctions[0];
+    if free.iter().any(|member| member.junctions[0] > first) {
         return None;
     }
     let needs = free.iter().map(|member| member.turning.before_m);
     Some(CornerProblem::Crowded {
         needs_m: needs.fold(f64::INFINITY, f64::min),
-        has_m: map.line.legs[corner].length_m - map.places[first].at_m,
+        has_m: map.line.legs[corner].length_m - map.junctions[first].at_m,
     })
 }
 
-/// By how much the member that comes nearest to fitting lacks room.
-fn shortage(task: &Task, turn_rad: f64, [before, after]: [Leg; 2]) -> CornerProblem {
+/// The lack of room of the member that comes nearest to fitting.
+fn shortage(task: &RoundingTask, turn_rad: f64, [before, after]: [Leg; 2]) -> CornerProblem {
     let lacks = |t: &TwoTurning| {
         let (before_m, after_m) = (t.before_m - before.length_m, t.after_m - after.length_m);
         before_m.max(0.0) + after_m.max(0.0)
@@ -138,15 +137,16 @@ fn shortage(task: &Task, turn_rad: f64, [before, after]: [Leg; 2]) -> CornerProb
 }
 
 fn motion(map: &Roadmap, member: &Member, facing: Facing) -> (Pose2, [Arc; 2]) {
-    let start = map.pose(member.places[0], facing);
+    let start = map.pose(member.junctions[0], facing);
     (start, member.turning.arcs().map(|arc| facing.seen(arc)))
 }
 
 /// The deepest overlap along the member that looks freest on the distance transform, metres.
 fn least_overlap_m<'a>(
-    task: &Task,
+    task: &RoundingTask,
     map: &Roadmap,
-    (members, facing): (impl Iterator<Item = &'a Member>, Facing),
+    members: impl Iterator<Item = &'a Member>,
+    facing: Facing,
 ) -> f64 {
     let tracks = members.map(|member| poses(map, member, facing));
     let ceiling_m = |track: &Vec<Pose2>| {

@@ -1,8 +1,8 @@
 //! The polyline whose corners are to be rounded: legs and the turns between them.
 
-use super::Ground;
+use super::problem::SmoothingProblem;
 use crate::geometry::{Point2, Pose2, angle_difference};
-use crate::map::{Cell, line_of_sight};
+use crate::map::Cell;
 use crate::scenario::Request;
 
 /// Nodes nearer to each other than this are one, metres.
@@ -80,11 +80,14 @@ impl Polyline {
 
 /// The start, the centers of the nodes, the goal; grid coordinates.
 ///
-/// The first and the last node stand for the ends on the grid. Each gives way to its end where the
-/// node after it is in sight from there: else the path would turn within the end's own cell. An
-/// end on a blocked cell sees what no lethal cell hides.
-pub(super) fn waypoints(ground: &Ground, request: &Request, nodes: &[Cell]) -> Vec<Point2> {
-    let frame = ground.obstacles.frame();
+/// The first and the last node stand for the ends on the grid. Each is dropped where its end sees
+/// the node after it: otherwise the path would turn within the end's own cell.
+pub(super) fn waypoints(
+    problem: &SmoothingProblem,
+    request: &Request,
+    nodes: &[Cell],
+) -> Vec<Point2> {
+    let frame = problem.obstacles.frame();
     let center = |cell: &Cell| {
         Point2::new(f64::from(cell.col) + 0.5, f64::from(cell.row) + 0.5) * frame.resolution_m()
     };
@@ -92,28 +95,14 @@ pub(super) fn waypoints(ground: &Ground, request: &Request, nodes: &[Cell]) -> V
     let mut points = vec![start];
     points.extend(nodes.iter().map(center));
     points.push(goal);
-    if points.len() > 2 && sees(ground, start, points[2]) {
+    if points.len() > 2 && problem.sees(start, points[2]) {
         points.remove(1);
     }
     let last = points.len() - 1;
-    if last > 1 && sees(ground, goal, points[last - 2]) {
+    if last > 1 && problem.sees(goal, points[last - 2]) {
         points.remove(last - 1);
     }
     points
-}
-
-fn sees(ground: &Ground, end: Point2, place: Point2) -> bool {
-    let scale = 1.0 / ground.obstacles.frame().resolution_m();
-    let (end, place) = (end * scale, place * scale);
-    let stands_on_blocked = ground
-        .blocked
-        .contains(end.x.floor() as i64, end.y.floor() as i64);
-    let hiding = if stands_on_blocked {
-        ground.obstacles.lethal()
-    } else {
-        ground.blocked
-    };
-    line_of_sight(hiding, ground.rule, end, place)
 }
 
 #[cfg(test)]

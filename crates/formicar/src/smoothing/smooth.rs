@@ -1,70 +1,25 @@
 //! The one entry: a request and the nodes of a grid path in, a drivable curve out.
 
 use super::chain::{Piece, cheapest};
+use super::config::{Corners, SmoothingConfig};
+use super::error::SmoothingError;
 use super::explain::explain;
 use super::polyline::{Polyline, waypoints};
+use super::problem::SmoothingProblem;
 use super::roadmap::Roadmap;
+use super::smoothed::{CornerRecord, Rounding, Smoothed};
 use super::spline::spline;
-use super::task::{Ends, Task};
-use super::wide_arcs::{WideWay, widest};
-use super::{Corners, SmoothingConfig, SmoothingError, TwoTurning};
-use crate::collision::{Body, Drive, ObstacleMap};
+use super::task::{Ends, RoundingTask};
+use super::wide_arcs::{WidePath, widest};
+use crate::collision::{Body, Drive};
 use crate::geometry::{Point2, Pose2};
-use crate::map::{BitGrid, Cell, DiagonalRule};
-use crate::path::{CurvePath, WaypointPath};
+use crate::map::Cell;
+use crate::path::CurvePath;
 use crate::scenario::{GoalHeading, Request, StartHeading};
-use crate::vehicle::{Motion, Vehicle};
+use crate::vehicle::Motion;
 
 /// Of the headings by which a request samples a free one, every so manieth is tried.
 const FREE_HEADING_STRIDE: usize = 3;
-
-/// Where a grid path was found and who shall drive it.
-#[derive(Clone, Copy, Debug)]
-pub struct Ground<'a> {
-    /// The map.
-    pub obstacles: &'a ObstacleMap,
-    /// Who drives.
-    pub vehicle: &'a Vehicle,
-    /// The cells that the grid path avoids: obstacles, mostly grown.
-    pub blocked: &'a BitGrid,
-    /// The rule by which it passes corners.
-    pub rule: DiagonalRule,
-}
-
-/// A drivable curve and how it came from a polyline; world coordinates.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Smoothed {
-    /// The curve.
-    pub path: CurvePath,
-    /// The polyline whose corners were rounded.
-    pub waypoints: WaypointPath,
-    /// Its corners, in order.
-    pub corners: Vec<CornerRecord>,
-}
-
-/// What became of a corner.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CornerRecord {
-    /// Where it was.
-    pub place: Point2,
-    /// How far the polyline turns there, radians, positive left.
-    pub turn_rad: f64,
-    /// How it became drivable.
-    pub rounding: Rounding,
-}
-
-/// How a corner became drivable.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Rounding {
-    /// By two arcs.
-    TwoTurning(TwoTurning),
-    /// By a Dubins or Reeds-Shepp curve that passes it.
-    Curve,
-    /// By the B-spline that it is a control point of.
-    Spline,
-    /// Not at all: a point turns on the spot.
-    None,
-}
 
 /// Rounds the corners of a grid path's nodes for a vehicle, and joins the ends' headings.
 ///
@@ -79,7 +34,7 @@ pub enum Rounding {
 /// Parameters out of range, no nodes, and the first place of the way that cannot be passed, with
 /// its reason.
 pub fn smooth(
-    ground: &Ground,
+    problem: &SmoothingProblem,
     config: &SmoothingConfig,
     request: &Request,
     nodes: &[Cell],
@@ -88,25 +43,25 @@ pub fn smooth(
     if nodes.is_empty() {
         return Err(SmoothingError::NoNodes);
     }
-    let points = waypoints(ground, request, nodes);
-    if ground.vehicle.motion() == Motion::Point {
-        return Ok(as_polyline(ground, &points));
+    let points = waypoints(problem, request, nodes);
+    if problem.vehicle.motion() == Motion::Point {
+        return Ok(as_polyline(problem, &points));
     }
     if config.corners == Corners::BSpline {
-        return Ok(spline(ground, config, request, points));
+        return Ok(spline(problem, config, request, points));
     }
-    let body = Body::new(ground.vehicle);
-    let ends = ends(ground, request, config.corners, &body);
-    let own_m = ground.vehicle.parameters().safety_margin_m.unwrap_or(0.0);
-    let careful = ground
+    let body = Body::new(problem.vehicle);
+    let ends = ends(problem, request, config.corners, &body);
+    let own_m = problem.vehicle.parameters().safety_margin_m.unwrap_or(0.0);
+    let careful = problem
         .vehicle
         .with_safety_margin(own_m + config.arc_margin_m);
     let careful_body = careful.map_or(body.clone(), |vehicle| Body::new(&vehicle));
-    let task = Task {
-        obstacles: ground.obstacles,
+    let task = RoundingTask {
+        obstacles: problem.obstacles,
         body: &body,
         careful_body: &careful_body,
-        radius_m: ground.vehicle.min_turning_radius_m(),
+        radius_m: problem.vehicle.min_turning_radius_m(),
         config,
         motion: request.motion,
         ends: &ends,
@@ -114,7 +69,7 @@ pub fn smooth(
     if config.corners == Corners::WideArcs
         && let Some(way) = widest(&task, &points)
     {
-        return Ok(by_wide_arcs(ground, request, &way));
+        return Ok(by_wide_arcs(problem, request, &way));
     }
     let map = Roadmap::new(Polyline::new(points), config, task.radius_m);
     let pieces = if map.line.legs.is_empty() && (ends.start_is_free || ends.goal_is_free) {
@@ -122,13 +77,13 @@ pub fn smooth(
     } else {
         cheapest(&task, &map).map_err(|stuck| explain(&task, &map, &stuck))?
     };
-    Ok(assembled(ground, request, &map, &pieces))
+    Ok(assembled(problem, request, &map, &pieces))
 }
 
 /// The poses at the ends, grid coordinates. Where the heading is free, 2-turning alone begins and
 /// ends as the polyline does.
-fn ends(ground: &Ground, request: &Request, corners: Corners, body: &Body) -> Ends {
-    let frame = ground.obstacles.frame();
+fn ends(problem: &SmoothingProblem, request: &Request, corners: Corners, body: &Body) -> Ends {
+    let frame = problem.obstacles.frame();
     let start_is_free = request.start_heading == StartHeading::Any;
     let goal_is_free = request.goal_heading == GoalHeading::Any;
     let placed = |poses: Vec<Pose2>, is_free: bool| {
@@ -138,7 +93,7 @@ fn ends(ground: &Ground, request: &Request, corners: Corners, body: &Body) -> En
             (false, _) => 1,
         };
         let poses = poses.into_iter().map(|pose| frame.to_grid(pose));
-        let stands_free = |pose: &Pose2| ground.obstacles.is_free(body, &Drive::at(*pose));
+        let stands_free = |pose: &Pose2| problem.obstacles.is_free(body, &Drive::at(*pose));
         poses.step_by(stride).filter(stands_free).collect()
     };
     Ends {
@@ -150,7 +105,7 @@ fn ends(ground: &Ground, request: &Request, corners: Corners, body: &Body) -> En
 }
 
 /// Start and goal in one place with a free heading: the path that does not move.
-fn standing(task: &Task, request: &Request) -> Result<Piece, SmoothingError> {
+fn standing(task: &RoundingTask, request: &Request) -> Result<Piece, SmoothingError> {
     let frame = task.obstacles.frame();
     let held = if task.ends.start_is_free && !task.ends.goal_is_free {
         request.goal_poses()
@@ -167,9 +122,9 @@ fn standing(task: &Task, request: &Request) -> Result<Piece, SmoothingError> {
     })
 }
 
-fn as_polyline(ground: &Ground, points: &[Point2]) -> Smoothed {
+fn as_polyline(problem: &SmoothingProblem, points: &[Point2]) -> Smoothed {
     let line = Polyline::new(points.iter().copied());
-    let waypoints = world_points(ground, &line.points);
+    let waypoints = problem.world_points(&line.points);
     Smoothed {
         path: CurvePath::from_polyline(&waypoints.points),
         corners: (0..line.n_corners())
@@ -183,14 +138,19 @@ fn as_polyline(ground: &Ground, points: &[Point2]) -> Smoothed {
     }
 }
 
-fn assembled(ground: &Ground, request: &Request, map: &Roadmap, pieces: &[Piece]) -> Smoothed {
-    let frame = ground.obstacles.frame();
+fn assembled(
+    problem: &SmoothingProblem,
+    request: &Request,
+    map: &Roadmap,
+    pieces: &[Piece],
+) -> Smoothed {
+    let frame = problem.obstacles.frame();
     let start = match (request.start_heading, pieces.first()) {
         (StartHeading::Any, Some(first)) => frame.to_world(first.start).wrapped(),
         _ => request.start,
     };
     let path = CurvePath::from_arcs(start, pieces.iter().flat_map(|piece| &piece.arcs));
-    let waypoints = world_points(ground, &map.line.points);
+    let waypoints = problem.world_points(&map.line.points);
     let mut corners: Vec<CornerRecord> = (0..map.line.n_corners())
         .map(|corner| CornerRecord {
             place: waypoints.points[corner + 1],
@@ -209,27 +169,19 @@ fn assembled(ground: &Ground, request: &Request, map: &Roadmap, pieces: &[Piece]
     }
 }
 
-fn by_wide_arcs(ground: &Ground, request: &Request, way: &WideWay) -> Smoothed {
+fn by_wide_arcs(problem: &SmoothingProblem, request: &Request, way: &WidePath) -> Smoothed {
     let start = match request.start_heading {
-        StartHeading::Any => ground.obstacles.frame().to_world(way.start).wrapped(),
+        StartHeading::Any => problem.obstacles.frame().to_world(way.start).wrapped(),
         StartHeading::Exact => request.start,
     };
     let corners = way.corners.iter().map(|corner| CornerRecord {
-        place: world_points(ground, &[corner.place]).points[0],
+        place: problem.world_points(&[corner.place]).points[0],
         turn_rad: corner.turning.turn_rad,
         rounding: Rounding::TwoTurning(corner.turning),
     });
     Smoothed {
         path: CurvePath::from_arcs(start, &way.arcs),
-        waypoints: world_points(ground, &way.points),
+        waypoints: problem.world_points(&way.points),
         corners: corners.collect(),
-    }
-}
-
-pub(super) fn world_points(ground: &Ground, points: &[Point2]) -> WaypointPath {
-    let frame = ground.obstacles.frame();
-    let to_world = |&p: &Point2| frame.to_world(Pose2::at(p, 0.0)).position();
-    WaypointPath {
-        points: points.iter().map(to_world).collect(),
     }
 }

@@ -1,8 +1,9 @@
-//! A B-spline whose control points are the nodes (Li 2024, ACOF), without a look at obstacles.
+//! A B-spline whose control points are the nodes (Li 2024, ACOF); obstacles are ignored.
 
-use super::SmoothingConfig;
+use super::config::SmoothingConfig;
 use super::polyline::Polyline;
-use super::smooth::{CornerRecord, Ground, Rounding, Smoothed, world_points};
+use super::problem::SmoothingProblem;
+use super::smoothed::{CornerRecord, Rounding, Smoothed};
 use crate::geometry::{Arc, BSpline, Point2, Pose2, angle_difference};
 use crate::path::{CurvePath, CurveSegment, Direction};
 use crate::scenario::{GoalHeading, Request, StartHeading};
@@ -15,22 +16,21 @@ const NEGLIGIBLE_M: f64 = 1e-9;
 
 /// The path along the B-spline of third order over way points, grid coordinates.
 ///
-/// Neither obstacles nor the steering limit are looked at: whoever judges the path finds what it
-/// touches.
+/// Obstacles and the steering limit are ignored: the judge finds what the path touches.
 pub(super) fn spline(
-    ground: &Ground,
+    problem: &SmoothingProblem,
     config: &SmoothingConfig,
     request: &Request,
     points: Vec<Point2>,
 ) -> Smoothed {
     let line = Polyline::new(points);
-    let controls = with_headings(ground, request, &line.points);
-    let spacing_m = config.spline_spacing_radii * ground.vehicle.min_turning_radius_m();
+    let controls = with_headings(problem, request, &line.points);
+    let spacing_m = config.spline_spacing_radii * problem.vehicle.min_turning_radius_m();
     let controls = with_spacing(&controls, spacing_m);
     let arcs = BSpline::new(controls).map_or_else(Vec::new, |spline| spline.arcs(TOLERANCE_M));
-    let waypoints = world_points(ground, &line.points);
+    let waypoints = problem.world_points(&line.points);
     Smoothed {
-        path: driven(ground, request, &arcs),
+        path: driven(problem, request, &arcs),
         corners: (0..line.n_corners())
             .map(|corner| CornerRecord {
                 place: waypoints.points[corner + 1],
@@ -42,18 +42,18 @@ pub(super) fn spline(
     }
 }
 
-/// Control points more for headings that are given: the spline begins along its first leg and ends
-/// along its last.
+/// Adds control points for given headings: the spline begins along its first leg and ends along its
+/// last.
 ///
-/// They lie a third as far from start and goal as the next node, where the spline of an even leg
-/// would have them: nearer ones bend it sharply. The paper knows no headings. Of the two that a
-/// bidirectional goal allows, the one nearer to the last leg counts.
-fn with_headings(ground: &Ground, request: &Request, points: &[Point2]) -> Vec<Point2> {
+/// They lie a third as far from start and goal as the next node, as those of a uniform leg would:
+/// nearer ones bend the spline sharply. The paper has no headings. A bidirectional goal counts with
+/// the heading nearer to that of the last leg.
+fn with_headings(problem: &SmoothingProblem, request: &Request, points: &[Point2]) -> Vec<Point2> {
     let mut controls = points.to_vec();
     let ([first, second, ..], [.., before, last]) = (points, points) else {
         return controls;
     };
-    let frame = ground.obstacles.frame();
+    let frame = problem.obstacles.frame();
     let beside = |end: Point2, next: Point2, heading: f64| {
         end + Point2::unit(heading) * (end.distance(next) / 3.0)
     };
@@ -89,8 +89,8 @@ fn with_spacing(points: &[Point2], spacing_m: f64) -> Vec<Point2> {
 }
 
 /// Arcs in grid coordinates, driven forward in the world.
-fn driven(ground: &Ground, request: &Request, arcs: &[(Pose2, Arc)]) -> CurvePath {
-    let frame = ground.obstacles.frame();
+fn driven(problem: &SmoothingProblem, request: &Request, arcs: &[(Pose2, Arc)]) -> CurvePath {
+    let frame = problem.obstacles.frame();
     let drivable = arcs.iter().filter(|(_, arc)| arc.length_m() > NEGLIGIBLE_M);
     let segment = |(start, arc): &(Pose2, Arc)| CurveSegment {
         start: frame.to_world(*start).wrapped(),
@@ -102,7 +102,7 @@ fn driven(ground: &Ground, request: &Request, arcs: &[(Pose2, Arc)]) -> CurvePat
     let mut segments: Vec<CurveSegment> = drivable.map(segment).collect();
     let start = match (request.start_heading, segments.first_mut()) {
         (StartHeading::Exact, Some(first)) => {
-            // What rounding took from the pose that was asked for.
+            // Conversion to the grid and back has rounded the requested pose.
             first.start = request.start;
             request.start
         }

@@ -1,12 +1,12 @@
-//! What a chain of pieces is made for: what is free, and what driving costs.
+//! Collision checks and costs of the pieces that round a polyline.
 
-use super::SmoothingConfig;
+use super::config::SmoothingConfig;
 use super::roadmap::Facing;
 use crate::collision::{Body, Drive, ObstacleMap};
 use crate::geometry::{Arc, Curve, Pose2, dubins, reeds_shepp};
 use crate::scenario::MotionMode;
 
-/// What a line or an arc costs along which the margin is not kept, turning radii.
+/// Cost of a line or an arc along which the margin is not kept, turning radii.
 const TIGHT_RADII: f64 = 1.0;
 
 /// The poses from which curves lead onto the way, and those to which they lead from it.
@@ -22,7 +22,7 @@ pub(super) struct Ends {
 
 /// A body on a map, its parameters and its ends; grid coordinates.
 #[derive(Clone, Copy)]
-pub(super) struct Task<'a> {
+pub(super) struct RoundingTask<'a> {
     pub(super) obstacles: &'a ObstacleMap,
     pub(super) body: &'a Body,
     /// The body with the margin that it keeps where it can.
@@ -33,8 +33,8 @@ pub(super) struct Task<'a> {
     pub(super) ends: &'a Ends,
 }
 
-impl Task<'_> {
-    /// The most of the polyline that one curve replaces, metres.
+impl RoundingTask<'_> {
+    /// The longest stretch of the polyline that one curve replaces, metres.
     pub(super) fn reach_m(&self) -> f64 {
         self.config.reach_radii * self.radius_m
     }
@@ -70,8 +70,8 @@ impl Task<'_> {
         self.is_body_free(self.body, start, arcs)
     }
 
-    /// What it costs that the body passes near obstacles along arcs, metres: nothing where it
-    /// keeps its margin; none where it hits something.
+    /// Cost of passing near obstacles along arcs, metres: 0 where the body keeps its margin; none
+    /// where it hits something.
     pub(super) fn tightness_m(&self, start: Pose2, arcs: &[Arc]) -> Option<f64> {
         if self.is_body_free(self.careful_body, start, arcs) {
             return Some(0.0);
@@ -80,8 +80,8 @@ impl Task<'_> {
             .then_some(TIGHT_RADII * self.radius_m)
     }
 
-    /// The arcs are cut into short pieces, and those that look tightest are checked first: what
-    /// hits, mostly does so there.
+    /// Checks short pieces of the arcs, those that look tightest first: collisions are most likely
+    /// there.
     fn is_body_free(&self, body: &Body, start: Pose2, arcs: &[Arc]) -> bool {
         let mut pose = start;
         let mut pieces = Vec::new();

@@ -6,12 +6,11 @@ mod parameters;
 mod random_maps;
 
 use formicar::collision::ObstacleMap;
-use formicar::colony::Stop;
 use formicar::geometry::Pose2;
 use formicar::map::{Cell, OCCUPIED, OccupancyGrid, builtin};
 use formicar::numeric::Seed;
 use formicar::planner::{Outcome, Plan, PlanError, Planner, PlannerConfig, PlannerName};
-use formicar::progress::{Event, Observer, Status};
+use formicar::progress::{Event, Observer, Status, Stop};
 use formicar::scenario::Request;
 use formicar::validation::judge;
 use formicar::vehicle::Vehicle;

@@ -15,7 +15,7 @@ use formicar::progress::Limits;
 use formicar::scenario::{GoalHeading, MotionMode, Request, StartHeading};
 use formicar::search::{AstarWorkspace, astar};
 use formicar::smoothing::{
-    Ground, RedundantNodes, Smoothed, SmoothingConfig, SmoothingError, smooth,
+    RedundantNodes, Smoothed, SmoothingConfig, SmoothingError, SmoothingProblem, smooth,
 };
 use formicar::validation::judge;
 use formicar::vehicle::Vehicle;
@@ -43,8 +43,8 @@ impl Place {
         }
     }
 
-    fn ground(&self) -> Ground<'_> {
-        Ground {
+    fn ground(&self) -> SmoothingProblem<'_> {
+        SmoothingProblem {
             obstacles: &self.obstacles,
             vehicle: &self.vehicle,
             blocked: &self.blocked,

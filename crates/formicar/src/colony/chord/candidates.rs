@@ -1,7 +1,7 @@
 //! The steps among which an ant chooses, and their weights.
 
-use super::ant::Shared;
-use super::ground::{Ground, Turn};
+use super::ant::ChordShared;
+use super::graph::{ChordGraph, Turn};
 use super::transition::Memory;
 use crate::map::Cell;
 use crate::objective::SteeringMeter;
@@ -16,13 +16,13 @@ pub(super) struct Candidate {
     pub(super) length_m: f64,
     /// R of its corner, relative to the best candidate.
     pub(super) corner: f64,
-    /// Q of its way, relative to the best candidate.
+    /// Q of its distance, relative to the best candidate.
     pub(super) quality: f64,
-    /// Its weight; 0 once it has turned out not to be safe.
+    /// Its weight; 0 once its collision check has failed.
     pub(super) weight: f64,
 }
 
-/// Where an ant stands and how it came there.
+/// The position of an ant and its path so far.
 pub(super) struct Standing<'a> {
     pub(super) at: Cell,
     pub(super) number: usize,
@@ -34,7 +34,7 @@ pub(super) struct Standing<'a> {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Candidates {
     list: Vec<Candidate>,
-    /// The largest way to go among them and where the ant stands, cells.
+    /// The largest distance to go among them and from the ant's own cell, cells.
     largest_to_go: f64,
 }
 
@@ -42,11 +42,11 @@ impl Candidates {
     /// Gathers the steps that lie in the corridor and within the steering limit.
     pub(super) fn gather(
         &mut self,
-        ground: &Ground,
+        graph: &ChordGraph,
         standing: &Standing,
         steps: impl Iterator<Item = (usize, Turn, f64)>,
     ) {
-        let to_go = f64::from(ground.to_go[standing.number]);
+        let to_go = f64::from(graph.to_go[standing.number]);
         let limit_rad = standing.meter.limit_rad();
         self.list.clear();
         self.largest_to_go = to_go;
@@ -54,11 +54,11 @@ impl Candidates {
             if turn.needed_rad > limit_rad {
                 continue;
             }
-            let Some((to, number)) = ground.step_to(standing.at, step) else {
+            let Some((to, number)) = graph.step_to(standing.at, step) else {
                 continue;
             };
-            let after = f64::from(ground.to_go[number]);
-            if ground.ring.lengths[step] + after - to_go > ground.step_loss {
+            let after = f64::from(graph.to_go[number]);
+            if graph.ring.lengths[step] + after - to_go > graph.step_loss {
                 continue;
             }
             self.largest_to_go = self.largest_to_go.max(after);
@@ -76,10 +76,10 @@ impl Candidates {
     }
 
     /// Weighs them: Li 2024 (25), times guidance.
-    pub(super) fn weigh(&mut self, ground: &Ground, standing: &Standing, shared: &Shared) {
-        self.rate(ground, standing, shared);
-        let config = ground.config;
-        let to_go = f64::from(ground.to_go[standing.number]);
+    pub(super) fn weigh(&mut self, graph: &ChordGraph, standing: &Standing, shared: &ChordShared) {
+        self.rate(graph, standing, shared);
+        let config = graph.config;
+        let to_go = f64::from(graph.to_go[standing.number]);
         let past = [0, 1].map(|i| standing.memories[i].past());
         for candidate in &mut self.list {
             let number = candidate.number as usize;
@@ -87,8 +87,8 @@ impl Candidates {
                 standing.memories[0].derivative(candidate.corner, past[0]),
                 standing.memories[1].derivative(candidate.quality, past[1]),
             ];
-            let step = ground.ring.lengths[usize::from(candidate.step)];
-            let ways = [to_go, f64::from(ground.to_go[number])];
+            let step = graph.ring.lengths[usize::from(candidate.step)];
+            let ways = [to_go, f64::from(graph.to_go[number])];
             let guidance = config.guidance.log_factor(step, ways).exp();
             candidate.weight = power(f64::from(shared.tau[number]), config.pheromone_exponent)
                 * power(corner, config.corner_exponent)
@@ -98,12 +98,12 @@ impl Candidates {
     }
 
     /// R and Q of every candidate, relative to the best.
-    fn rate(&mut self, ground: &Ground, standing: &Standing, shared: &Shared) {
-        let config = ground.config;
+    fn rate(&mut self, graph: &ChordGraph, standing: &Standing, shared: &ChordShared) {
+        let config = graph.config;
         let limit_rad = standing.meter.limit_rad();
         let ways = shared
             .ways(standing.number)
-            .unwrap_or([self.largest_to_go, f64::from(ground.to_go[standing.number])]);
+            .unwrap_or([self.largest_to_go, f64::from(graph.to_go[standing.number])]);
         let mut best = [f64::MIN_POSITIVE; 2];
         for candidate in &mut self.list {
             let turn_rad = candidate.turn.turn_rad.abs();
@@ -114,7 +114,7 @@ impl Candidates {
             let share = candidate.turn.needed_rad / limit_rad;
             candidate.corner =
                 1.0 / (1.0 + config.corner.omega(share, straightness, shared.factor));
-            let distance = ground.distance(candidate.to);
+            let distance = graph.distance(candidate.to);
             candidate.quality = config.distance.quality(distance, ways, shared.factor);
             best = [
                 best[0].max(candidate.corner),
@@ -154,7 +154,7 @@ impl Candidates {
     }
 }
 
-/// Powers of which nearly all are the first.
+/// A power, fast for the exponent 1.
 #[inline]
 fn power(base: f64, exponent: f64) -> f64 {
     if exponent == 1.0 {

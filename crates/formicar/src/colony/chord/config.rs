@@ -6,12 +6,13 @@ use super::distance::DistanceTerm;
 use super::limit::SteeringLimit;
 use super::safety::Safety;
 use super::transition::ChordTransition;
-use crate::colony::config::{ColonyError, Stopping};
 use crate::colony::corridor::Corridor;
 use crate::colony::dead_end::DeadEnd;
+use crate::colony::error::ColonyError;
 use crate::colony::evaporation::Evaporation;
 use crate::colony::heuristic::Guidance;
 use crate::colony::initial::AstarSeed;
+use crate::colony::stopping::Stopping;
 use crate::numeric::{OutOfRange, check_range};
 use crate::objective::SteeringCost;
 use schemars::JsonSchema;
@@ -73,12 +74,6 @@ pub struct ChordConfig {
     pub cost: SteeringCost,
     /// When to stop before the last generation.
     pub stopping: Stopping,
-}
-
-impl Default for ChordConfig {
-    fn default() -> Self {
-        crate::colony::presets::faco2024()
-    }
 }
 
 impl ChordConfig {

@@ -1,4 +1,4 @@
-//! What the corner before a step costs.
+//! The cost of the corner before a step.
 
 use crate::numeric::{OutOfRange, check_range};
 use schemars::JsonSchema;

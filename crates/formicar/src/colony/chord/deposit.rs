@@ -1,6 +1,6 @@
-//! Who deposits pheromone, and how much: by the spread of turns and by length.
+//! Deposits of pheromone by the spread of turns and by length.
 
-use super::generation::ChordGeneration;
+use crate::colony::generation::Generation;
 use crate::numeric::{OutOfRange, check_range};
 use crate::objective::PolylineCost;
 use schemars::JsonSchema;
@@ -67,24 +67,24 @@ impl SpreadDeposit {
         check_range("chords.deposit.pheromone", self.pheromone, 1e-6..=1e6)
     }
 
-    /// What the reference path itself would get.
+    /// The amount along the reference path itself.
     pub(super) fn unit(&self) -> f64 {
         self.pheromone * (self.spread_weight + self.length_weight)
     }
 
     /// The ants that deposit, in their order.
-    pub(super) fn depositors(&self, generation: &ChordGeneration) -> Vec<usize> {
+    pub(super) fn depositors(&self, generation: &Generation<PolylineCost>) -> Vec<usize> {
         match self.by {
             Depositor::Best => generation.best().into_iter().collect(),
             Depositor::All => generation.arrived().collect(),
         }
     }
 
-    /// What an ant adds along its way, beside the reference path.
+    /// The amount that an ant adds along its path, given the reference path.
     pub(super) fn amount(&self, way: &PolylineCost, reference: &PolylineCost) -> f64 {
         let variance = |cost: &PolylineCost| cost.turn_variance_rad2.max(MIN_VARIANCE_RAD2);
         let spread = variance(reference) / variance(way);
-        // A way that does not move is as good as its reference.
+        // A path without length is as good as its reference.
         let length = if way.length_m > 0.0 {
             reference.length_m / way.length_m
         } else {

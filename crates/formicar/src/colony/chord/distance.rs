@@ -1,4 +1,4 @@
-//! What a step's way to the goal promises.
+//! The distance term of a step's weight.
 
 use crate::numeric::{OutOfRange, check_range};
 use schemars::JsonSchema;

@@ -1,4 +1,4 @@
-//! How far an ant's vehicle can steer.
+//! The steering limit of an ant's vehicle.
 
 use crate::numeric::OutOfRange;
 use crate::vehicle::SuspensionParameters;

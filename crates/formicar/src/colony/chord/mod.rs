@@ -8,13 +8,12 @@
 
 mod ant;
 mod candidates;
+mod colony;
 mod config;
 mod corner;
 mod deposit;
 mod distance;
-mod engine;
-mod generation;
-mod ground;
+mod graph;
 mod limit;
 mod numbered;
 mod problem;
@@ -22,11 +21,11 @@ mod ring;
 mod safety;
 mod transition;
 
+pub use colony::run_chords;
 pub use config::ChordConfig;
 pub use corner::{CornerRule, CornerTerm, StraightnessUse};
 pub use deposit::{Depositor, SpreadDeposit};
 pub use distance::{DistanceTerm, KnownLengths};
-pub use engine::run_chords;
 pub use limit::{DynamicLimit, SteeringLimit};
 pub use problem::ChordProblem;
 pub use safety::{FootprintSafety, Safety};

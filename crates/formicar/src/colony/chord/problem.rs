@@ -1,4 +1,4 @@
-//! From where to where, on which ground, and who drives.
+//! The problem that a colony of chords solves: a map, a vehicle, start and goal.
 
 use crate::collision::ObstacleMap;
 use crate::geometry::Pose2;

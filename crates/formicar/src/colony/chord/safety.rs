@@ -1,4 +1,4 @@
-//! Which steps the body has room for.
+//! Collision checks of steps.
 
 use crate::collision::{Body, Drive, ObstacleMap};
 use crate::geometry::{Point2, Pose2};

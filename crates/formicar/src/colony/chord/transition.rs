@@ -1,4 +1,4 @@
-//! How the next step is weighed: fractional derivatives along the ant's own way.
+//! Weights of the next step: fractional derivatives along the ant's own path.
 
 use crate::numeric::{OutOfRange, check_range, grunwald_letnikov_weights};
 use schemars::JsonSchema;
@@ -80,7 +80,7 @@ impl ChordTransition {
     }
 }
 
-/// What an ant remembers of its last steps, and how that lowers the values of the next.
+/// The values of an ant's last steps, which lower the values of the next.
 #[derive(Clone, Debug)]
 pub(super) struct Memory {
     /// Weights of the steps before, the latest first.
@@ -104,13 +104,13 @@ impl Memory {
         self.values.clear();
     }
 
-    /// What the steps before add to the derivative; not positive.
+    /// The share of the last steps in the derivative; not positive.
     pub(super) fn past(&self) -> f64 {
         let remembered = self.values.iter().zip(&self.weights);
         remembered.map(|(value, weight)| value * weight).sum()
     }
 
-    /// The derivative at a step with a value from 0 to 1, given what the past adds to it.
+    /// The derivative at a step with a value from 0 to 1, given the share of the last steps.
     #[inline]
     pub(super) fn derivative(&self, value: f64, past: f64) -> f64 {
         (value + past).max(self.floor * value)

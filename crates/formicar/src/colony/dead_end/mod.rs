@@ -1,4 +1,4 @@
-//! What an ant does where no step is left.
+//! Dead ends: cells from which no step is left.
 
 mod retreat;
 
@@ -7,7 +7,7 @@ pub use retreat::Retreat;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What an ant does where every neighbor is blocked or visited.
+/// The behavior of an ant at a dead end, where every neighbor is blocked or visited.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "rule", rename_all = "kebab-case")]
 pub enum DeadEnd {

@@ -41,7 +41,7 @@ impl BestAnt {
     ) -> Vec<Portion<'a>> {
         let every = self.best_so_far_every;
         let portion = if every > 0 && (iteration + 1).is_multiple_of(every) {
-            along(memory.best.as_ref(), self.q)
+            along(memory.best(), self.q)
         } else {
             let best = generation.best();
             best.map(|ant| from_ant(generation, ant, self.q))

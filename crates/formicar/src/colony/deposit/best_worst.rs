@@ -23,11 +23,11 @@ impl Default for BestWorst {
 
 impl BestWorst {
     pub(super) fn deposits<'a>(&self, memory: &'a Memory) -> Vec<Portion<'a>> {
-        let (Some(best), Some(worst)) = (&memory.best, &memory.worst) else {
+        let (Some(best), Some(worst)) = (memory.best(), &memory.worst) else {
             return Vec::new();
         };
         let gain = along(Some(best), self.q);
-        let loss = (worst.cost > best.cost).then(|| along(Some(worst), -self.q));
+        let loss = (worst.cost.cost > best.cost.cost).then(|| along(Some(worst), -self.q));
         gain.into_iter().chain(loss.flatten()).collect()
     }
 }

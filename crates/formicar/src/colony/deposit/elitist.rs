@@ -39,7 +39,7 @@ impl Elitist {
     ) -> Vec<Portion<'a>> {
         let n_elite = self.elite_share * generation.n_ants() as f64;
         let mut portions = all(generation, self.q);
-        portions.extend(along(memory.best.as_ref(), n_elite * self.q));
+        portions.extend(along(memory.best(), n_elite * self.q));
         portions
     }
 }

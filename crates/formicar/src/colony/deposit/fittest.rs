@@ -35,13 +35,14 @@ impl Fittest {
     }
 
     pub(super) fn deposits<'a>(&self, generation: &'a Generation) -> Vec<Portion<'a>> {
-        let mut fit = generation.costs().to_vec();
-        fit.sort_by(|a, b| a.cost.total_cmp(&b.cost).then(a.ant.cmp(&b.ant)));
+        let cost = |ant: usize| generation.cost(ant).cost;
+        let mut fit: Vec<usize> = generation.arrived().collect();
+        fit.sort_by(|&a, &b| cost(a).total_cmp(&cost(b)).then(a.cmp(&b)));
         let n_fit = (self.share * fit.len() as f64).ceil().max(1.0) as usize;
         fit.truncate(n_fit);
         // In the ants' order, as everywhere.
-        fit.sort_by_key(|ant| ant.ant);
-        let ants = fit.iter();
+        fit.sort_unstable();
+        let ants = fit.into_iter();
         ants.map(|ant| from_ant(generation, ant, self.q)).collect()
     }
 }

@@ -1,4 +1,4 @@
-//! Who deposits pheromone, and how much.
+//! Deposits of pheromone.
 
 mod all_ants;
 mod best_ant;
@@ -12,8 +12,8 @@ pub use best_worst::BestWorst;
 pub use elitist::Elitist;
 pub use fittest::Fittest;
 
-use super::engine::Memory;
-use super::generation::{AntCost, Generation, Way};
+use super::cost::CellCost;
+use super::{generation, memory};
 use crate::numeric::{OutOfRange, check_range};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -34,7 +34,11 @@ pub enum Deposit {
     BestWorst(BestWorst),
 }
 
-/// The steps of a way, and what is added to the pheromone along it.
+type Generation = generation::Generation<CellCost>;
+type AntPath = generation::AntPath<CellCost>;
+type Memory = memory::Memory<CellCost>;
+
+/// The steps of a path, and what is added to the pheromone along it.
 pub(super) type Portion<'a> = (&'a [u8], f64);
 
 impl Deposit {
@@ -58,7 +62,7 @@ impl Deposit {
         }
     }
 
-    /// What so many ants on one way deposit, times its cost.
+    /// The deposit of `n_ants` ants on one path, times its cost.
     pub(super) fn expected(&self, n_ants: u32) -> f64 {
         let n_depositing = match self {
             Self::AllAnts(_) => f64::from(n_ants),
@@ -69,7 +73,7 @@ impl Deposit {
         self.q() * n_depositing
     }
 
-    /// What is added along which way, in order.
+    /// The amounts to add, and the paths to add them along, in order.
     pub(super) fn deposits<'a>(
         &self,
         iteration: u32,
@@ -88,21 +92,22 @@ impl Deposit {
 
 /// Q / F from every ant that arrived, in the ants' order.
 fn all(generation: &Generation, q: f64) -> Vec<Portion<'_>> {
-    let ants = generation.costs().iter();
+    let ants = generation.arrived();
     ants.map(|ant| from_ant(generation, ant, q)).collect()
 }
 
 /// Q / F from an ant.
-fn from_ant<'a>(generation: &'a Generation, ant: &AntCost, q: f64) -> Portion<'a> {
-    (generation.steps_of(ant.ant), share_of(q, ant.cost))
+fn from_ant(generation: &Generation, ant: usize, q: f64) -> Portion<'_> {
+    let cost = generation.cost(ant).cost;
+    (generation.steps_of(ant), share_of(q, cost))
 }
 
-/// `n` Q / F along a way that is remembered.
-fn along(way: Option<&Way>, n_q: f64) -> Option<Portion<'_>> {
-    way.map(|way| (&way.steps[..], share_of(n_q, way.cost)))
+/// `n` Q / F along a path that is remembered.
+fn along(path: Option<&AntPath>, n_q: f64) -> Option<Portion<'_>> {
+    path.map(|path| (&path.steps[..], share_of(n_q, path.cost.cost)))
 }
 
-/// Q / F; a way of no steps costs as much as one of one.
+/// Q / F; a path without steps costs as much as one of a single step.
 fn share_of(q: f64, cost: f64) -> f64 {
     q / if cost > 0.0 { cost } else { 1.0 }
 }
@@ -110,24 +115,27 @@ fn share_of(q: f64, cost: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::colony::Stopping;
     use crate::objective::PathCost;
 
     fn generation() -> Generation {
         let mut generation = Generation::default();
         for n_steps in [4, 2, 8] {
-            generation.steps.extend(vec![0; n_steps]);
-            generation.end_ant(true);
+            arrive(&mut generation, n_steps);
         }
-        generation.evaluate(&PathCost::default());
         generation
     }
 
+    fn arrive(generation: &mut Generation, n_steps: usize) {
+        let steps = vec![0; n_steps];
+        generation.steps.extend(&steps);
+        generation.end_ant(true, CellCost::new(&PathCost::default(), &steps));
+    }
+
     fn memory(generation: &Generation) -> Memory {
-        Memory {
-            best: generation.best().map(|ant| generation.way(ant)),
-            worst: generation.worst().map(|ant| generation.way(ant)),
-            ..Memory::default()
-        }
+        let mut memory = Memory::default();
+        memory.update(generation, &Stopping::default());
+        memory
     }
 
     fn amounts(rule: &Deposit, iteration: u32) -> Vec<(usize, f64)> {
@@ -164,9 +172,7 @@ mod tests {
     #[test]
     fn nothing_is_taken_where_the_worst_is_the_best() {
         let mut generation = Generation::default();
-        generation.steps.extend([0, 0]);
-        generation.end_ant(true);
-        generation.evaluate(&PathCost::default());
+        arrive(&mut generation, 2);
         let memory = memory(&generation);
         let rule = Deposit::BestWorst(BestWorst { q: 8.0 });
         assert_eq!(rule.deposits(0, &generation, &memory), [(&[0, 0][..], 4.0)]);

@@ -1,23 +1,23 @@
 //! One ant that drives from the start towards the goal.
 
 use super::DriveConfig;
-use super::walk::Ground;
+use super::walk::DriveShared;
 use crate::geometry::{Arc, Point2};
 use crate::numeric::RandomStream;
 use crate::progress::DriveWay;
 use crate::search::{DriveProblem, Guide, State};
 use std::collections::HashSet;
 
-/// A curve to the goal may be this many times as long as the way along the field,
+/// Longest curve to the goal, as a multiple of the distance along the field.
 const SHOT_RATIO: f64 = 1.5;
-/// and so many turning radii more.
+/// Allowance on top of [`SHOT_RATIO`], turning radii.
 const SHOT_SLACK_RADII: f64 = 6.0;
 
-/// An ant with its memory of one way, used again and again.
+/// An ant with the memory of one path, which is reused.
 pub(super) struct Ant<'a> {
     problem: DriveProblem<'a>,
     config: DriveConfig,
-    /// The states of the way so far.
+    /// The states of the path so far.
     states: Vec<State>,
     visited: HashSet<u64>,
     candidates: Vec<Candidate>,
@@ -27,7 +27,7 @@ pub(super) struct Ant<'a> {
 struct Candidate {
     step: usize,
     state: State,
-    /// Estimated cost of a way through it.
+    /// Estimated cost of a path through it.
     cost: f64,
     weight: f64,
 }
@@ -43,15 +43,15 @@ impl<'a> Ant<'a> {
         }
     }
 
-    /// Drives once. A greedy ant always takes what looks best.
+    /// Drives once. A greedy ant always takes the candidate of least estimated cost.
     pub(super) fn drive(
         &mut self,
-        ground: &Ground,
+        shared: &DriveShared,
         start: State,
         draw: &mut RandomStream,
         is_greedy: bool,
     ) -> DriveWay {
-        let guide = &ground.guide;
+        let guide = &shared.guide;
         self.states.clear();
         self.visited.clear();
         self.states.push(start);
@@ -71,7 +71,7 @@ impl<'a> Ant<'a> {
             {
                 return self.arrived(&shot, n_steps);
             }
-            self.look_around(ground, &here);
+            self.look_around(shared, &here);
             if let Some(state) = self.choose(&here, draw, is_greedy) {
                 self.visited.insert(self.problem.key(&state));
                 self.states.push(state);
@@ -91,18 +91,18 @@ impl<'a> Ant<'a> {
         self.dead(died_at.or(Some(last)), max_steps)
     }
 
-    /// A free curve to the goal that is not much longer than the field says.
+    /// A free curve to the goal that is not much longer than the distance along the field.
     fn shot(&self, guide: &Guide, here: &State) -> Option<Vec<Arc>> {
         let to_go_m = guide.estimate_m(&self.problem, here.pose.position())?;
         let (arcs, _) = self.problem.shot(here)?;
         let length_m: f64 = arcs.iter().map(|arc| arc.length_m()).sum();
-        let slack_m = SHOT_SLACK_RADII * self.problem.ground().radius_m();
+        let slack_m = SHOT_SLACK_RADII * self.problem.map().radius_m();
         (length_m <= SHOT_RATIO * to_go_m + slack_m).then_some(arcs)
     }
 
-    /// Finds out what leads on from a state, and what a way through each of it may cost: its own
-    /// cost and the way along the field from the best place one motion farther on.
-    fn look_around(&mut self, ground: &Ground, here: &State) {
+    /// Collects the motions from a state with the estimated cost of a path through each: its own
+    /// cost, and the distance along the field from the best position one motion farther.
+    fn look_around(&mut self, shared: &DriveShared, here: &State) {
         let (problem, visited) = (&self.problem, &self.visited);
         let candidates = &mut self.candidates;
         candidates.clear();
@@ -110,7 +110,7 @@ impl<'a> Ant<'a> {
             if visited.contains(&problem.key(&state)) {
                 return;
             }
-            if let Some(ahead) = problem.look_ahead(&ground.guide, &state) {
+            if let Some(ahead) = problem.look_ahead(&shared.guide, &state) {
                 candidates.push(Candidate {
                     step,
                     state,
@@ -126,13 +126,13 @@ impl<'a> Ant<'a> {
         let alpha = self.config.trails.alpha;
         for candidate in candidates {
             let Candidate { state, cost, .. } = candidate;
-            let tau = ground.trails.at(state.pose, state.arc);
+            let tau = shared.trails.at(state.pose, state.arc);
             candidate.weight = (1.0 + alpha * tau) * (-scale * (*cost - least)).exp();
         }
     }
 
-    /// A motion that is free: the best one, or one drawn by weight. Only what is chosen is looked
-    /// at, and struck off where it hits something.
+    /// A free motion: the best one, or one drawn by weight. Only a chosen motion is checked; one
+    /// that hits something is removed.
     fn choose(&mut self, here: &State, draw: &mut RandomStream, is_greedy: bool) -> Option<State> {
         while !self.candidates.is_empty() {
             let place = if is_greedy {

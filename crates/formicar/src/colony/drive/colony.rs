@@ -1,24 +1,24 @@
-//! Generations of ants that drive: until one arrives, or from a way that is known.
+//! Generations of ants that drive: from the start until one arrives, or from a known path.
 
 use super::trails::Trails;
-use super::walk::{Ground, Walker, Ways};
+use super::walk::{DriveShared, DriveWorker, Ways};
 use super::{DriveConfig, repair};
-use crate::colony::crew::{Crew, with_crew};
+use crate::colony::worker_pool::{WorkerPool, with_workers};
 use crate::geometry::{Arc, Pose2};
 use crate::numeric::Seed;
 use crate::progress::{DriveView, DriveWay, Event, Limits, Status};
 use crate::search::{DriveProblem, Driven, Guide, State};
-use std::sync::Arc as Shared;
+use std::sync::Arc as SharedArc;
 
-/// Cells of the map that a bin of pheromone is wide.
+/// Width of a bin of pheromone, map cells.
 const BIN_CELLS: f64 = 4.0;
 
 /// Ants that drive, a generation at a time.
 pub struct DriveColony<'a, 'c> {
     problem: DriveProblem<'a>,
     config: DriveConfig,
-    crew: &'c mut Crew<Walker<'a>>,
-    ground: Shared<Ground<'a>>,
+    pool: &'c mut WorkerPool<DriveWorker<'a>>,
+    shared: SharedArc<DriveShared<'a>>,
     ways: Ways,
     generation: u32,
 }
@@ -32,40 +32,40 @@ impl<'a> DriveColony<'a, '_> {
         guide: Guide<'a>,
         body: impl FnOnce(&mut DriveColony<'a, '_>) -> R,
     ) -> (R, Guide<'a>) {
-        let bin_m = BIN_CELLS * problem.ground().obstacles().frame().resolution_m();
-        let ground = Shared::new(Ground {
+        let bin_m = BIN_CELLS * problem.map().obstacles().frame().resolution_m();
+        let shared = SharedArc::new(DriveShared {
             guide,
             trails: Trails::new(bin_m),
             starts: problem.start_states().collect(),
             first_wins: true,
         });
-        let walker = || Walker::new(problem, config, seed);
-        let (result, ground) = with_crew(walker, config.n_ants.max(1), n_threads, |crew| {
+        let worker = || DriveWorker::new(problem, config, seed);
+        let (result, shared) = with_workers(worker, config.n_ants.max(1), n_threads, |pool| {
             let mut colony = DriveColony {
                 problem: problem.clone(),
                 config: config.clone(),
-                crew,
-                ground,
+                pool,
+                shared,
                 ways: Ways::default(),
                 generation: 0,
             };
-            (body(&mut colony), colony.ground)
+            (body(&mut colony), colony.shared)
         });
-        let ground = Shared::into_inner(ground).expect("helpers have ended");
-        (result, ground.guide)
+        let shared = SharedArc::into_inner(shared).expect("the threads have ended");
+        (result, shared.guide)
     }
 
     /// The guide, between generations.
     pub fn guide(&mut self) -> &mut Guide<'a> {
-        &mut self.ground_mut().guide
+        &mut self.shared_mut().guide
     }
 
-    fn ground_mut(&mut self) -> &mut Ground<'a> {
-        Shared::get_mut(&mut self.ground).expect("helpers let go of what they read")
+    fn shared_mut(&mut self) -> &mut DriveShared<'a> {
+        SharedArc::get_mut(&mut self.shared).expect("threads drop what they have read")
     }
 
-    /// Sends a generation to look for a first way: that of the first ant that arrived, or none;
-    /// then the guide has learned where ants died. A step of the limits is a decision of an ant.
+    /// Sends a generation to look for a first path: that of the first ant that arrives. If none
+    /// arrives, the guide is repaired where ants died. A step of the limits is a decision of an ant.
     ///
     /// # Errors
     /// Budget, deadline or cancel.
@@ -88,7 +88,7 @@ impl<'a> DriveColony<'a, '_> {
                 Some(place) => deaths.push(place),
             }
         }
-        let (radius_m, repair) = (self.problem.ground().radius_m(), self.config.repair.clone());
+        let (radius_m, repair) = (self.problem.map().radius_m(), self.config.repair.clone());
         self.guide().repair(
             |resolution_m, size| repair::tolls(&repair, &deaths, radius_m, resolution_m, size),
             limits,
@@ -96,9 +96,9 @@ impl<'a> DriveColony<'a, '_> {
         Ok(None)
     }
 
-    /// Sends a generation of focused ants: each leaves a known way at a place drawn at random and
-    /// drives to the goal on its own, drawn by pheromone. All ways that arrived, from the start
-    /// on, in the ants' order.
+    /// Sends a generation of focused ants: each leaves a known path at a random position and drives
+    /// to the goal on its own, attracted by pheromone. Returns all paths that arrived, from the
+    /// start on, in the ants' order.
     ///
     /// # Errors
     /// Budget, deadline or cancel.
@@ -115,10 +115,10 @@ impl<'a> DriveColony<'a, '_> {
             .map(|_| cut(start, arcs, length_m * draw.unit()))
             .collect();
         let (rho, deposit) = (self.config.trails.rho, self.config.trails.deposit);
-        let ground = self.ground_mut();
-        ground.trails.renew(rho, deposit, (start, arcs));
-        ground.first_wins = false;
-        ground.starts = branches.iter().map(|branch| branch.1).collect();
+        let shared = self.shared_mut();
+        shared.trails.renew(rho, deposit, (start, arcs));
+        shared.first_wins = false;
+        shared.starts = branches.iter().map(|branch| branch.1).collect();
         let ways = self.walk();
         self.tell(&ways, limits);
         let mut whole = Vec::new();
@@ -135,10 +135,10 @@ impl<'a> DriveColony<'a, '_> {
         Ok(whole)
     }
 
-    /// The ways of a generation.
+    /// The paths of a generation.
     fn walk(&mut self) -> Vec<DriveWay> {
-        self.crew
-            .walk(&self.ground, self.generation, &mut self.ways);
+        self.pool
+            .walk(&self.shared, self.generation, &mut self.ways);
         self.generation += 1;
         std::mem::take(&mut self.ways.0)
     }
@@ -153,7 +153,7 @@ impl<'a> DriveColony<'a, '_> {
     }
 }
 
-/// A way cut off after so many metres: what was driven until there, and the state there.
+/// A path cut off after a driven length: the arcs until there, and the state there.
 fn cut(start: Pose2, arcs: &[Arc], driven_m: f64) -> (Vec<Arc>, State) {
     let (mut before, mut pose, mut left_m) = (Vec::new(), start, driven_m);
     for &arc in arcs {

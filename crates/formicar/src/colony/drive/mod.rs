@@ -1,12 +1,12 @@
-//! Ants that drive: a step is a motion of the vehicle, a way a chain of arcs to the goal pose.
+//! Ants that drive: a step is a motion of the vehicle, a path a chain of arcs to the goal pose.
 //!
-//! They look for a first way. The goal field guides them, which knows obstacles but no headings;
-//! where it leads into places that the vehicle cannot drive, ants die, and where they die the field
-//! is repaired: these cells become dearer, so that the next ants are led around them. It is
-//! pheromone of the opposite sign, laid on the guide.
+//! First they look for any path. The goal field guides them; it sees obstacles but no headings, and
+//! may lead into places that the vehicle cannot drive. Ants die there, and the field is repaired:
+//! the cells around get an extra cost, which leads the next ants around them. The repair acts like
+//! negative pheromone on the guide.
 //!
-//! When a way is known, ants leave it anywhere and drive on by themselves, drawn to the pheromone
-//! that the best ways left: other ways around, which local search then makes short.
+//! Once a path is known, ants leave it at random positions and drive on by themselves, attracted by
+//! the pheromone of the best paths. They find other routes, which local search then shortens.
 
 mod ant;
 mod colony;

@@ -1,4 +1,4 @@
-//! Where ants died, and what the field learns from it.
+//! Repair of the goal field at the places where ants died.
 
 use super::FieldRepair;
 use crate::geometry::Point2;
@@ -6,7 +6,7 @@ use crate::map::Cell;
 use crate::search::STRAIGHT_COST;
 use std::collections::BTreeMap;
 
-/// Tolls for the cells about the places of death: the more died there, the dearer.
+/// Tolls on the cells around the places of death, in proportion to the deaths there.
 pub(super) fn tolls(
     repair: &FieldRepair,
     deaths: &[Point2],

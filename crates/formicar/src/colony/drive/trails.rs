@@ -1,13 +1,13 @@
-//! Pheromone where good ways led, in coarse bins of place, heading and gear.
+//! Pheromone of good paths, in coarse bins of position, heading and gear.
 
 use crate::geometry::{Arc, Pose2};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-/// Number of headings that bins tell apart.
+/// Number of headings that bins distinguish.
 const N_HEADINGS: f64 = 24.0;
 
-/// Pheromone by bin; 0 where nobody laid any. Bins take memory when they are first touched.
+/// Pheromone by bin. A bin takes memory when pheromone is first deposited in it.
 #[derive(Clone, Debug)]
 pub(super) struct Trails {
     bin_m: f64,
@@ -32,8 +32,8 @@ impl Trails {
         bin.map_or(0.0, |&tau| f64::from(tau))
     }
 
-    /// Lets a share of all pheromone evaporate, and lays some along a way; no bin holds more than
-    /// 1.
+    /// Evaporates a share `rho` of all pheromone, and deposits some along a path; no bin holds more
+    /// than 1.
     pub(super) fn renew(&mut self, rho: f64, deposit: f64, (start, arcs): (Pose2, &[Arc])) {
         for tau in self.pheromone.values_mut() {
             *tau *= (1.0 - rho) as f32;

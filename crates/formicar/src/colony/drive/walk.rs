@@ -1,32 +1,32 @@
-//! Ants on the threads of a crew, and their ways in their order.
+//! Ants that drive, on the threads of a pool, and their paths in order.
 
 use super::DriveConfig;
 use super::ant::Ant;
 use super::trails::Trails;
-use crate::colony::crew::{Part, Walk};
+use crate::colony::worker_pool::{AntWorker, Batch};
 use crate::numeric::Seed;
 use crate::progress::DriveWay;
 use crate::search::{DriveProblem, Guide, State};
 use std::ops::Range;
 
-/// What the ants of a generation read.
-pub(super) struct Ground<'a> {
+/// Read by the ants of a generation.
+pub(super) struct DriveShared<'a> {
     pub(super) guide: Guide<'a>,
     pub(super) trails: Trails,
-    /// Where the ants begin: ant i at number i, around and around.
+    /// The states from which the ants start, in turn.
     pub(super) starts: Vec<State>,
-    /// Whether ants turn home when another has arrived.
+    /// Whether the first ant to arrive ends the generation.
     pub(super) first_wins: bool,
 }
 
 /// Two kinds of ants: of each pair the first drives forward until its last curve, the second uses
 /// both gears.
-pub(super) struct Walker<'a> {
+pub(super) struct DriveWorker<'a> {
     ants: [Ant<'a>; 2],
     seed: Seed,
 }
 
-impl<'a> Walker<'a> {
+impl<'a> DriveWorker<'a> {
     pub(super) fn new(problem: &DriveProblem<'a>, config: &DriveConfig, seed: Seed) -> Self {
         Self {
             ants: [
@@ -42,31 +42,37 @@ impl<'a> Walker<'a> {
 #[derive(Default)]
 pub(super) struct Ways(pub(super) Vec<DriveWay>);
 
-impl Part for Ways {
+impl Batch for Ways {
     fn clear(&mut self) {
         self.0.clear();
     }
 
-    fn append(&mut self, part: &Self) {
-        self.0.extend_from_slice(&part.0);
+    fn append(&mut self, ways: &Self) {
+        self.0.extend_from_slice(&ways.0);
     }
 }
 
-impl<'a> Walk for Walker<'a> {
-    type Shared = Ground<'a>;
-    type Part = Ways;
+impl<'a> AntWorker for DriveWorker<'a> {
+    type Shared = DriveShared<'a>;
+    type Batch = Ways;
 
-    fn send(&mut self, ground: &Ground<'a>, generation: u32, ants: Range<u32>, part: &mut Ways) {
+    fn walk_ants(
+        &mut self,
+        shared: &DriveShared<'a>,
+        generation: u32,
+        ants: Range<u32>,
+        ways: &mut Ways,
+    ) {
         for index in ants {
             let mut draw = self.seed.stream([u64::from(generation), u64::from(index)]);
-            let start = ground.starts[index as usize / 2 % ground.starts.len()];
+            let start = shared.starts[index as usize / 2 % shared.starts.len()];
             // The first two of a run are the greedy ones.
-            let is_greedy = ground.first_wins && index < 2;
-            let way = self.ants[index as usize % 2].drive(ground, start, &mut draw, is_greedy);
+            let is_greedy = shared.first_wins && index < 2;
+            let way = self.ants[index as usize % 2].drive(shared, start, &mut draw, is_greedy);
             let has_arrived = way.died_at.is_none();
-            part.0.push(way);
-            // Whoever comes later in this part cannot win any more.
-            if has_arrived && ground.first_wins {
+            ways.0.push(way);
+            // Later ants of this batch cannot win any more.
+            if has_arrived && shared.first_wins {
                 return;
             }
         }

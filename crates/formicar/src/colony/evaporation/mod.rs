@@ -1,4 +1,4 @@
-//! How pheromone evaporates between iterations.
+//! Evaporation of pheromone between iterations.
 
 mod adaptive;
 mod constant;

@@ -1,4 +1,4 @@
-//! What draws an ant to a cell besides pheromone.
+//! Heuristics: the attraction of cells besides pheromone.
 //!
 //! Rules add logarithms of their factors, by cell and by step: products of powers neither
 //! overflow nor vanish that way, and an ant compares the cells around it alone.

@@ -63,7 +63,7 @@ impl InitialPheromone {
         problem: &ColonyProblem,
         cells: &[u32],
         limits: &mut Limits,
-    ) -> Result<Laid, SearchError> {
+    ) -> Result<InitialTrails, SearchError> {
         let (values, least) = match self {
             Self::Uniform(rule) => (vec![rule.tau; cells.len()], rule.tau),
             Self::LineGradient(rule) => {
@@ -75,19 +75,19 @@ impl InitialPheromone {
                 (rule.values(cells.len(), path), rule.least())
             }
         };
-        Ok(Laid { values, least })
+        Ok(InitialTrails { values, least })
     }
 }
 
 /// Pheromone before the first iteration.
-pub(super) struct Laid {
+pub(super) struct InitialTrails {
     /// By number of the cell.
     pub(super) values: Vec<f64>,
     /// The least anywhere on the map.
     pub(super) least: f64,
 }
 
-impl Laid {
+impl InitialTrails {
     /// The same in a larger or smaller unit.
     pub(super) fn scale(&mut self, unit: f64) {
         self.values.iter_mut().for_each(|tau| *tau *= unit);
@@ -95,7 +95,7 @@ impl Laid {
     }
 }
 
-/// Which of the cells that ants can reach lie on a shortest path; none where there is no path.
+/// The numbers of the cells on a shortest path; empty if there is no path.
 fn shortest_path(
     problem: &ColonyProblem,
     cells: &[u32],

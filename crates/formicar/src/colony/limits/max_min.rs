@@ -1,6 +1,7 @@
 //! The limits of the MAX-MIN Ant System (Stützle & Hoos 2000).
 
-use crate::colony::generation::Way;
+use crate::colony::cost::CellCost;
+use crate::colony::generation::AntPath;
 use crate::numeric::{OutOfRange, check_range};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -28,8 +29,13 @@ impl MaxMin {
         check_range("colony.limits.p_best", self.p_best, 1e-6..=1.0)
     }
 
-    pub(super) fn range(&self, n_choices: f64, lasting: f64, best: &Way) -> (f64, f64) {
-        let high = lasting / best.cost.max(f64::MIN_POSITIVE);
+    pub(super) fn range(
+        &self,
+        n_choices: f64,
+        lasting: f64,
+        best: &AntPath<CellCost>,
+    ) -> (f64, f64) {
+        let high = lasting / best.cost.cost.max(f64::MIN_POSITIVE);
         let p = self.p_best.powf(1.0 / best.steps.len().max(1) as f64);
         let share = (1.0 - p) / ((n_choices - 1.0).max(1.0) * p);
         (high * share.min(1.0), high)
@@ -42,10 +48,12 @@ mod tests {
 
     #[test]
     fn limits_are_those_of_the_paper() {
-        let best = Way {
+        let best = AntPath {
             steps: vec![0; 50],
-            cost: 50.0,
-            length: 50.0,
+            cost: CellCost {
+                cost: 50.0,
+                length_cells: 50.0,
+            },
         };
         let (low, high) = MaxMin::default().range(4.0, 1.0 / 0.02, &best);
         assert!((high - 1.0).abs() < 1e-12);

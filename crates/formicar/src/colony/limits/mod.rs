@@ -6,7 +6,8 @@ mod max_min;
 pub use floor::Floor;
 pub use max_min::MaxMin;
 
-use super::generation::Way;
+use super::cost::CellCost;
+use super::generation::AntPath;
 use super::node::Node;
 use crate::numeric::OutOfRange;
 use schemars::JsonSchema;
@@ -16,7 +17,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "rule", rename_all = "kebab-case")]
 pub enum PheromoneLimits {
-    /// None.
+    /// No limits.
     #[default]
     None,
     /// No less than a share of what there was at first.
@@ -25,7 +26,7 @@ pub enum PheromoneLimits {
     MaxMin(MaxMin),
 }
 
-/// What limits refer to.
+/// The quantities that limits refer to.
 pub(super) struct Bounds {
     /// The least initial pheromone.
     initial: f64,
@@ -54,7 +55,12 @@ impl PheromoneLimits {
 
     /// Least and most pheromone. `lasting` is Q / rho: what is left of the deposits Q / F of one
     /// ant in the long run, times F.
-    pub(super) fn range(&self, bounds: &Bounds, lasting: f64, best: Option<&Way>) -> (f64, f64) {
+    pub(super) fn range(
+        &self,
+        bounds: &Bounds,
+        lasting: f64,
+        best: Option<&AntPath<CellCost>>,
+    ) -> (f64, f64) {
         match (self, best) {
             (Self::Floor(rule), _) => (rule.share * bounds.initial, f64::INFINITY),
             (Self::MaxMin(rule), Some(best)) => rule.range(bounds.n_choices, lasting, best),

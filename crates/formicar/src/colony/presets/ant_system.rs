@@ -1,16 +1,25 @@
 //! The Ant System: the conventional colony of Lei & Zheng 2020.
 
-use crate::colony::config::{AdjacentGoal, ColonyConfig, Directions, Stopping, TrailLayout};
+use crate::colony::config::{AdjacentGoal, ColonyConfig, TrailLayout};
 use crate::colony::corridor::Corridor;
 use crate::colony::dead_end::DeadEnd;
 use crate::colony::deposit::{AllAnts, Deposit};
+use crate::colony::directions::Directions;
 use crate::colony::evaporation::{Constant, Evaporation};
 use crate::colony::heuristic::{GoalDistance, Guidance, Visibility};
 use crate::colony::initial::{InitialPheromone, PheromoneUnit, Uniform};
 use crate::colony::limits::PheromoneLimits;
+use crate::colony::stopping::Stopping;
 use crate::colony::transition::Transition;
 use crate::map::DiagonalRule;
 use crate::objective::PathCost;
+
+impl Default for ColonyConfig {
+    /// [`ant_system`].
+    fn default() -> Self {
+        ant_system()
+    }
+}
 
 /// The Ant System (Dorigo, Maniezzo & Colorni 1996) with the size and the exponents that Lei &
 /// Zheng 2020 use for all colonies: uniform pheromone, constant evaporation, one class of steps,

@@ -4,13 +4,20 @@ use crate::colony::chord::{
     ChordConfig, ChordTransition, CornerRule, CornerTerm, DistanceTerm, DynamicLimit,
     FootprintSafety, FractionalTransition, KnownLengths, Safety, SpreadDeposit, SteeringLimit,
 };
-use crate::colony::config::Stopping;
 use crate::colony::corridor::{Corridor, RatioCorridor};
 use crate::colony::dead_end::{DeadEnd, Retreat};
 use crate::colony::evaporation::{Evaporation, Generational};
 use crate::colony::heuristic::{Advantage, Guidance};
 use crate::colony::initial::{AstarSeed, PheromoneUnit};
+use crate::colony::stopping::Stopping;
 use crate::objective::SteeringCost;
+
+impl Default for ChordConfig {
+    /// [`faco2024`].
+    fn default() -> Self {
+        faco2024()
+    }
+}
 
 /// FACO, Li et al. 2024: ants that step by chords with the steering that a suspended car has,
 /// seeded by a shortest path, and weigh steps by fractional derivatives along their way.

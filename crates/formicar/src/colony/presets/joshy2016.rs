@@ -1,8 +1,9 @@
 //! The colony of Joshy & Supriya 2016, as far as Wang 2019 describes it.
 
 use super::wang2019;
-use crate::colony::config::{ColonyConfig, Directions};
+use crate::colony::config::ColonyConfig;
 use crate::colony::deposit::{AllAnts, Deposit};
+use crate::colony::directions::Directions;
 use crate::colony::heuristic::Guidance;
 use crate::colony::limits::PheromoneLimits;
 use crate::colony::transition::{ObliqueFirst, Transition};

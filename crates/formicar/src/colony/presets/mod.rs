@@ -1,6 +1,6 @@
 //! The colonies of papers, each with every parameter.
 //!
-//! Where a paper states no value, it is read from what the paper says or chosen; the pages in
+//! A value that a paper does not state is derived from its text or chosen; the pages in
 //! `references/` mark each one.
 
 mod aco;

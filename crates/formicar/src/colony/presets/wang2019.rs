@@ -1,13 +1,15 @@
 //! The colony of Wang et al. 2019.
 
-use crate::colony::config::{AdjacentGoal, ColonyConfig, Directions, Stopping, TrailLayout};
+use crate::colony::config::{AdjacentGoal, ColonyConfig, TrailLayout};
 use crate::colony::corridor::Corridor;
 use crate::colony::dead_end::DeadEnd;
 use crate::colony::deposit::{BestWorst, Deposit};
+use crate::colony::directions::Directions;
 use crate::colony::evaporation::{Constant, Evaporation};
 use crate::colony::heuristic::{GoalDistance, GoalFieldGuidance, Guidance, Visibility};
 use crate::colony::initial::{InitialPheromone, PheromoneUnit, Uniform};
 use crate::colony::limits::{Floor, PheromoneLimits};
+use crate::colony::stopping::Stopping;
 use crate::colony::transition::Transition;
 use crate::map::DiagonalRule;
 use crate::objective::PathCost;

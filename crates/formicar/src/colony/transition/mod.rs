@@ -1,4 +1,4 @@
-//! Which steps an ant chooses from: those of a first class as long as there is one.
+//! Classes of steps: an ant chooses among those of the first class while there are any.
 
 mod goal_directed;
 mod oblique_first;

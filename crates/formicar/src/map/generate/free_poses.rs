@@ -26,7 +26,7 @@ pub fn free_pose_pairs(
     n_pairs: usize,
     seed: Seed,
 ) -> Result<Vec<(Pose2, Pose2)>, GenerateError> {
-    let ground = Ground {
+    let sampler = PoseSampler {
         frame: map.frame(),
         lethal: map.lethal_cells(),
         main: main_component(map).iter().collect(),
@@ -35,7 +35,7 @@ pub fn free_pose_pairs(
     let mut pairs = Vec::new();
     for i in 0..n_pairs {
         let mut random = seed.stream([i as u64, 0]);
-        let Some(pair) = ground.pair(&mut random) else {
+        let Some(pair) = sampler.pair(&mut random) else {
             return Err(GenerateError::NoFreePoses {
                 n_found: i,
                 n_wanted: n_pairs,
@@ -47,14 +47,14 @@ pub fn free_pose_pairs(
     Ok(pairs)
 }
 
-struct Ground<'a> {
+struct PoseSampler<'a> {
     frame: &'a GridFrame,
     lethal: BitGrid,
     main: Vec<Cell>,
     footprint: &'a ConvexPolygon,
 }
 
-impl Ground<'_> {
+impl PoseSampler<'_> {
     fn pair(&self, random: &mut RandomStream) -> Option<(Pose2, Pose2)> {
         let start = self.free_pose(random)?;
         let away = |goal: &Pose2| goal.position().distance(start.position());

@@ -45,7 +45,7 @@ pub(super) fn bridge(
             curves.sort_by(|a, b| a.length_m().total_cmp(&b.length_m()));
             drafts.extend(curves.into_iter().take(N_WORDS).map(|curve| {
                 let gain_m = from.lost_m + to.lost_m;
-                let price_m = price_m(cost, &curve, problem.ground().radius_m());
+                let price_m = price_m(cost, &curve, problem.map().radius_m());
                 (price_m - gain_m, from, to, curve)
             }));
         }
@@ -65,7 +65,7 @@ pub(super) fn bridge(
 }
 
 fn words(problem: &DriveProblem, from: Pose2, to: Pose2) -> Vec<Curve> {
-    let radius_m = problem.ground().radius_m();
+    let radius_m = problem.map().radius_m();
     match problem.motion() {
         MotionMode::Forward => dubins::candidates(from, to, radius_m),
         MotionMode::Reverse => reeds_shepp::candidates(from, to, radius_m),

@@ -16,7 +16,7 @@ pub(super) type Stretch = Range<f64>;
 
 /// The stretches of a path that can still be driven, as long as they go.
 pub(super) fn kept_stretches(problem: &DriveProblem, path: &CurvePath) -> Vec<Stretch> {
-    let piece_m = PIECE_RADII * problem.ground().radius_m();
+    let piece_m = PIECE_RADII * problem.map().radius_m();
     let mut kept: Vec<Stretch> = Vec::new();
     let mut begun_m = 0.0;
     for segment in path.segments() {
@@ -51,7 +51,7 @@ fn push(kept: &mut Vec<Stretch>, next: Stretch) {
 
 /// Whether the vehicle can drive a segment, in a gear that the request allows, and is free on it.
 fn is_driven(problem: &DriveProblem, segment: &CurveSegment) -> bool {
-    let bend = segment.curvature_per_m.abs() * problem.ground().radius_m();
+    let bend = segment.curvature_per_m.abs() * problem.map().radius_m();
     let is_allowed =
         problem.motion() == MotionMode::Reverse || segment.direction == Direction::Forward;
     bend <= 1.0 + CURVATURE_TOLERANCE

@@ -30,8 +30,8 @@ impl<'a> Mender<'a> {
         cost: &'a DriveCost,
         previous: &CurvePath,
     ) -> Option<Self> {
-        let radius_m = problem.ground().radius_m();
-        let resolution_m = problem.ground().obstacles().frame().resolution_m();
+        let radius_m = problem.map().radius_m();
+        let resolution_m = problem.map().obstacles().frame().resolution_m();
         let apart = |start: Pose2| {
             let behind_m = previous.nearest_m(start, radius_m, resolution_m);
             let pose = previous.pose_at(behind_m);
@@ -129,7 +129,7 @@ impl<'a> Mender<'a> {
     }
 
     fn offsets_m(&self) -> impl Iterator<Item = f64> {
-        let radius_m = self.problem.ground().radius_m();
+        let radius_m = self.problem.map().radius_m();
         OFFSETS_RADII.into_iter().map(move |radii| radii * radius_m)
     }
 

@@ -127,7 +127,7 @@ impl Planner {
         limits: &mut Limits,
     ) -> Option<Driven> {
         let frame = self.obstacles.frame();
-        let ground = mender.problem.ground();
+        let ground = mender.problem.map();
         let end = limits.n_steps().saturating_add(most_steps);
         let mut search = |from: Pose2, to: Pose2| {
             let config = HybridAstarConfig {
@@ -202,7 +202,7 @@ impl Planner {
     }
 
     fn cost_m(&self, problem: &DriveProblem, path: &CurvePath) -> f64 {
-        let ground = problem.ground();
+        let ground = problem.map();
         let meter = DriveMeter::new(
             &self.obstacles,
             ground.body(),

@@ -35,7 +35,7 @@ impl<'a> Guide<'a> {
         inflation: Inflation,
         limits: &mut Limits,
     ) -> Result<Option<Self>, Status> {
-        let (moves, stride) = problem.ground().moves(inflation);
+        let (moves, stride) = problem.map().moves(inflation);
         let free = |cell: &Cell| !moves.blocked().get(cell.col as usize, cell.row as usize);
         let cells = |poses: &[Pose2]| {
             let cells = poses
@@ -53,7 +53,7 @@ impl<'a> Guide<'a> {
         let Ok(field) = GuideField::new(moves, &goals) else {
             return Ok(None);
         };
-        let map_m = problem.ground().obstacles().frame().resolution_m();
+        let map_m = problem.map().obstacles().frame().resolution_m();
         let mut guide = Self {
             field,
             stride,
@@ -89,7 +89,7 @@ impl<'a> Guide<'a> {
     /// to matter.
     pub fn along_curve_m(&self, problem: &DriveProblem, pose: Pose2, along_field_m: f64) -> f64 {
         let goals = problem.goals();
-        let radius_m = problem.ground().radius_m();
+        let radius_m = problem.map().radius_m();
         if goals.len() > MAX_CURVE_GOALS || along_field_m > CURVE_REACH_RADII * radius_m {
             return 0.0;
         }

@@ -2,8 +2,8 @@
 //! moves and costs of a query, and the guide to its goal.
 
 mod config;
-mod ground;
-mod ground_cells;
+mod drivable_cells;
+mod drivable_map;
 mod guide;
 mod motions;
 mod one_way;
@@ -13,7 +13,7 @@ mod shots;
 mod state;
 
 pub use config::HybridAstarConfig;
-pub use ground::{DriveGround, GroundParts};
+pub use drivable_map::{DrivableMap, DrivableMapParts};
 pub use guide::Guide;
 pub use problem::DriveProblem;
 pub use state::{Driven, Inflation, Side, State};

@@ -102,7 +102,7 @@ impl DriveProblem<'_> {
 
     /// Whether the body's inner disc certainly hits something: a look at one cell.
     pub(super) fn hits(&self, position: Point2, along: Point2) -> bool {
-        let (obstacles, body) = (self.ground.obstacles(), self.ground.body());
+        let (obstacles, body) = (self.map.obstacles(), self.map.body());
         obstacles.ceiling_at_m(body, position, along) < 0.0
     }
 
@@ -111,7 +111,7 @@ impl DriveProblem<'_> {
         if from.is_start {
             return arc.signed_length_m == 0.0 || self.is_arc_free(from.pose, arc);
         }
-        let (padded, position) = (self.ground.padded(), from.pose.position());
+        let (padded, position) = (self.map.padded(), from.pose.position());
         let masks = &self.lattice.masks;
         masks.is_clear(padded, position, from.heading_index, step)
             || self.is_exact && self.is_arc_free(from.pose, arc)
@@ -124,7 +124,7 @@ impl DriveProblem<'_> {
             curvature_per_m: arc.curvature_per_m,
             signed_length_m: arc.signed_length_m,
         };
-        let obstacles = self.ground.obstacles();
-        obstacles.is_free_by_steps(self.ground.body(), &drive)
+        let obstacles = self.map.obstacles();
+        obstacles.is_free_by_steps(self.map.body(), &drive)
     }
 }

@@ -27,7 +27,7 @@ pub(super) fn tolls(
     if problem.motion() != MotionMode::Forward {
         return Vec::new();
     }
-    let radius_m = problem.ground().radius_m();
+    let radius_m = problem.map().radius_m();
     let are_fixed = |poses: &[Pose2], n_places| poses.len() == n_places;
     let mut bars = Vec::new();
     if are_fixed(problem.goals(), problem.n_goals()) {
@@ -70,7 +70,7 @@ mod tests {
     use crate::map::OccupancyGrid;
     use crate::progress::Limits;
     use crate::scenario::Request;
-    use crate::search::{DriveGround, Guide, HybridAstarConfig, Inflation};
+    use crate::search::{DrivableMap, Guide, HybridAstarConfig, Inflation};
     use crate::vehicle::Vehicle;
     use std::sync::Arc;
 
@@ -80,13 +80,13 @@ mod tests {
         let map = OccupancyGrid::from_rows(&vec![&row[..]; 150], 0.2).unwrap();
         let obstacles = Arc::new(ObstacleMap::new(&map));
         let config = HybridAstarConfig::default();
-        let ground = DriveGround::new(obstacles, &Vehicle::warehouse_amr(), &config).unwrap();
+        let map = DrivableMap::new(obstacles, &Vehicle::warehouse_amr(), &config).unwrap();
         let start = Pose2::new(x, 15.0, 0.0);
         let request = Request {
             motion,
             ..Request::new(start, Pose2::new(15.0, 15.0, 0.0))
         };
-        let problem = DriveProblem::new(&ground, &config, &request);
+        let problem = DriveProblem::new(&map, &config, &request);
         let mut nobody = ();
         let mut limits = Limits::new(&mut nobody, None, None);
         let guide = Guide::new(&problem, Inflation::Wide, &mut limits).unwrap();

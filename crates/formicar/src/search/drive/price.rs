@@ -20,7 +20,7 @@ impl DriveProblem<'_> {
     /// Factor of the ground on lengths: by how near obstacles are, and by the soft costs.
     pub(super) fn dearness(&self, position: Point2, along: Point2) -> f64 {
         let wish_m = self.config.clearance_wish_m.max(2.0 * MIN_CLEARANCE_M);
-        let (obstacles, body) = (self.ground.obstacles(), self.ground.body());
+        let (obstacles, body) = (self.map.obstacles(), self.map.body());
         let clearance_m = obstacles.estimate_at(body, position, along, wish_m);
         let nearness = (1.0 - clearance_m / wish_m).clamp(0.0, 1.0);
         let soft = self

@@ -1,7 +1,7 @@
 //! One query from pose to pose: from where, to where, on which lattice.
 
-use super::ground::Lattice;
-use super::{DriveGround, Driven, HybridAstarConfig, Side, State};
+use super::drivable_map::Lattice;
+use super::{DrivableMap, Driven, HybridAstarConfig, Side, State};
 use crate::collision::Drive;
 use crate::geometry::{Arc, Point2, Pose2, angle_difference};
 use crate::layers::SoftCosts;
@@ -12,7 +12,7 @@ use crate::vehicle::{Gears, PrimitiveSet};
 /// A request on a ground, in grid coordinates.
 #[derive(Clone)]
 pub struct DriveProblem<'a> {
-    pub(super) ground: &'a DriveGround,
+    pub(super) map: &'a DrivableMap,
     pub(super) lattice: &'a Lattice,
     pub(super) config: &'a HybridAstarConfig,
     motion: MotionMode,
@@ -31,16 +31,16 @@ pub struct DriveProblem<'a> {
 
 impl<'a> DriveProblem<'a> {
     /// Prepares a query: the poses that the heading modes allow.
-    pub fn new(ground: &'a DriveGround, config: &'a HybridAstarConfig, request: &Request) -> Self {
-        let obstacles = ground.obstacles();
-        let stands_free = |pose: &Pose2| obstacles.is_free(ground.body(), &Drive::at(*pose));
+    pub fn new(map: &'a DrivableMap, config: &'a HybridAstarConfig, request: &Request) -> Self {
+        let obstacles = map.obstacles();
+        let stands_free = |pose: &Pose2| obstacles.is_free(map.body(), &Drive::at(*pose));
         let free = |poses: Vec<Pose2>| {
             let in_grid = poses.into_iter().map(|p| obstacles.frame().to_grid(p));
             in_grid.filter(stands_free).collect()
         };
         Self {
-            ground,
-            lattice: ground.coarse(),
+            map,
+            lattice: map.coarse(),
             config,
             motion: request.motion,
             gears: match request.motion {
@@ -68,7 +68,7 @@ impl<'a> DriveProblem<'a> {
     #[must_use]
     pub fn refined(&self) -> Self {
         Self {
-            lattice: self.ground.fine(),
+            lattice: self.map.fine(),
             ..self.exact()
         }
     }
@@ -120,8 +120,8 @@ impl<'a> DriveProblem<'a> {
     }
 
     /// The prepared map and vehicle.
-    pub fn ground(&self) -> &'a DriveGround {
-        self.ground
+    pub fn map(&self) -> &'a DrivableMap {
+        self.map
     }
 
     /// What motions cost.
@@ -164,7 +164,7 @@ impl<'a> DriveProblem<'a> {
 
     /// The map cell under a position, if it is on the map.
     pub fn cell(&self, position: Point2) -> Option<Cell> {
-        let frame = self.ground.obstacles().frame();
+        let frame = self.map.obstacles().frame();
         let (col, row) = (
             position.x / frame.resolution_m(),
             position.y / frame.resolution_m(),

@@ -21,7 +21,7 @@ impl DriveProblem<'_> {
         let Some(to_go_m) = guide.estimate_m(self, position) else {
             return false;
         };
-        let every = (to_go_m / (RADII_PER_SHOT * self.ground().radius_m())) as u64 + 1;
+        let every = (to_go_m / (RADII_PER_SHOT * self.map().radius_m())) as u64 + 1;
         n.is_multiple_of(every.min(MOST_STATES_PER_SHOT))
     }
 
@@ -49,7 +49,7 @@ impl DriveProblem<'_> {
     }
 
     fn words(&self, from: Pose2, to: Pose2) -> Vec<Curve> {
-        let radius_m = self.ground().radius_m();
+        let radius_m = self.map().radius_m();
         match self.motion() {
             MotionMode::Forward => dubins::candidates(from, to, radius_m),
             MotionMode::Reverse => reeds_shepp::candidates(from, to, radius_m),

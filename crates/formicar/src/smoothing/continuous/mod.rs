@@ -28,7 +28,7 @@ const MAX_SPAN: usize = 14;
 /// Deviations with which a clothoid is checked, metres: most are free with the first.
 const TOLERANCES_M: [f64; 2] = [1e-3, 5e-5];
 
-/// The ground and the limits of a continuous path.
+/// The map, the vehicle and the limits of a continuous path.
 #[derive(Clone, Debug)]
 pub struct Continuity<'a> {
     /// The map.
@@ -62,7 +62,7 @@ pub struct NoTransition {
 
 /// A part of the result, from a station before.
 #[derive(Clone)]
-struct Way {
+struct PartialPath {
     from: usize,
     chain: Chain,
     /// What its surroundings add to the cost of this part, metres.
@@ -84,13 +84,13 @@ impl Continuity<'_> {
             return Ok(path.clone());
         }
         let body = Body::new(self.vehicle);
-        let mut ways: Vec<Option<Way>> = vec![None; stations.len()];
+        let mut paths: Vec<Option<PartialPath>> = vec![None; stations.len()];
         let mut touches = false;
         for to in 1..stations.len() {
             let froms = (to.saturating_sub(MAX_SPAN)..to).rev();
             let free = froms.filter_map(|from| {
-                let before_m = match &ways[from] {
-                    Some(way) => way.cost_m,
+                let before_m = match &paths[from] {
+                    Some(path) => path.cost_m,
                     None if from == 0 => 0.0,
                     None => return None,
                 };
@@ -100,7 +100,7 @@ impl Continuity<'_> {
                 touches |= !is_free;
                 is_free.then(|| {
                     let nearness_m = self.nearness_m(&body, &chain, ends[0].pose);
-                    Way {
+                    PartialPath {
                         from,
                         nearness_m,
                         cost_m: before_m + chain.length_m() + nearness_m,
@@ -108,9 +108,9 @@ impl Continuity<'_> {
                     }
                 })
             });
-            ways[to] = cheapest(free);
+            paths[to] = cheapest(free);
         }
-        assembled(&stations, &ways).ok_or_else(|| self.failure(&stations, &ways, touches))
+        assembled(&stations, &paths).ok_or_else(|| self.failure(&stations, &paths, touches))
     }
 
     fn limits(&self) -> Limits {
@@ -172,8 +172,13 @@ impl Continuity<'_> {
         })
     }
 
-    fn failure(&self, stations: &[Station], ways: &[Option<Way>], touches: bool) -> NoTransition {
-        let last = (0..stations.len()).rev().find(|&i| ways[i].is_some());
+    fn failure(
+        &self,
+        stations: &[Station],
+        paths: &[Option<PartialPath>],
+        touches: bool,
+    ) -> NoTransition {
+        let last = (0..stations.len()).rev().find(|&i| paths[i].is_some());
         let station = &stations[last.unwrap_or(0)];
         NoTransition {
             x: station.pose.x,
@@ -185,13 +190,13 @@ impl Continuity<'_> {
     }
 }
 
-/// The cheapest of some ways; the first one that is far from everything ends the search.
-fn cheapest(ways: impl Iterator<Item = Way>) -> Option<Way> {
-    let mut best: Option<Way> = None;
-    for way in ways {
-        let is_clear = way.nearness_m == 0.0;
-        if best.as_ref().is_none_or(|best| way.cost_m < best.cost_m) {
-            best = Some(way);
+/// The cheapest of some paths; a path that is far from all obstacles ends the search.
+fn cheapest(paths: impl Iterator<Item = PartialPath>) -> Option<PartialPath> {
+    let mut best: Option<PartialPath> = None;
+    for path in paths {
+        let is_clear = path.nearness_m == 0.0;
+        if best.as_ref().is_none_or(|best| path.cost_m < best.cost_m) {
+            best = Some(path);
         }
         if is_clear {
             break;
@@ -200,18 +205,18 @@ fn cheapest(ways: impl Iterator<Item = Way>) -> Option<Way> {
     best
 }
 
-/// The path along the ways that lead to the last station.
-fn assembled(stations: &[Station], ways: &[Option<Way>]) -> Option<CurvePath> {
+/// The partial paths that lead to the last station, as one path.
+fn assembled(stations: &[Station], paths: &[Option<PartialPath>]) -> Option<CurvePath> {
     let mut parts = Vec::new();
     let mut to = stations.len() - 1;
     while to > 0 {
-        let way = ways[to].as_ref()?;
-        parts.push(way);
-        to = way.from;
+        let path = paths[to].as_ref()?;
+        parts.push(path);
+        to = path.from;
     }
     let mut segments: Vec<CurveSegment> = Vec::new();
-    for way in parts.into_iter().rev() {
-        for segment in segments_of(&way.chain, stations[way.from].pose) {
+    for path in parts.into_iter().rev() {
+        for segment in segments_of(&path.chain, stations[path.from].pose) {
             match segments.last_mut() {
                 Some(last) if goes_on(last, &segment) => last.length_m += segment.length_m,
                 _ => segments.push(segment),

@@ -1,6 +1,6 @@
 //! A driven path as it is improved: pieces with their poses and what they cost.
 
-use super::task::Task;
+use super::task::ImproveTask;
 use crate::geometry::{Arc, Pose2};
 
 /// A line or arc of the path.
@@ -40,7 +40,7 @@ impl Piece {
 
 /// A place on the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Place {
+pub(super) struct PathPosition {
     pub(super) piece: usize,
     /// Driven on the piece, from 0 to its length, metres.
     pub(super) driven_m: f64,
@@ -59,9 +59,9 @@ impl Chain {
     const SNAP_M: f64 = 1e-6;
 
     /// The path along arcs that are merged already, at least one.
-    pub(super) fn new(task: &Task, start: Pose2, arcs: &[Arc]) -> Self {
+    pub(super) fn new(task: &ImproveTask, start: Pose2, arcs: &[Arc]) -> Self {
         let mut pose = start;
-        let place = |&arc: &Arc| {
+        let piece_along = |&arc: &Arc| {
             let start = pose;
             pose = arc.end_from(pose);
             Piece {
@@ -72,7 +72,7 @@ impl Chain {
             }
         };
         let mut chain = Self {
-            pieces: arcs.iter().map(place).collect(),
+            pieces: arcs.iter().map(piece_along).collect(),
             length_m: 0.0,
             cost_m: 0.0,
         };
@@ -81,7 +81,7 @@ impl Chain {
     }
 
     /// Sums up lengths and costs anew.
-    pub(super) fn measure(&mut self, task: &Task) {
+    pub(super) fn measure(&mut self, task: &ImproveTask) {
         let mut from_m = 0.0;
         for piece in &mut self.pieces {
             piece.from_m = from_m;
@@ -98,7 +98,7 @@ impl Chain {
     }
 
     /// The place after a driven length.
-    pub(super) fn place(&self, driven_m: f64) -> Place {
+    pub(super) fn position(&self, driven_m: f64) -> PathPosition {
         let after = self.pieces.partition_point(|p| p.from_m <= driven_m);
         let piece = after.saturating_sub(1);
         let length_m = self.pieces[piece].arc.length_m();
@@ -110,12 +110,12 @@ impl Chain {
         } else {
             on_piece_m
         };
-        Place { piece, driven_m }
+        PathPosition { piece, driven_m }
     }
 
     /// The joint or end of the path that is nearest to a driven length, as a driven length.
     pub(super) fn nearest_joint_m(&self, driven_m: f64) -> f64 {
-        let piece = &self.pieces[self.place(driven_m).piece];
+        let piece = &self.pieces[self.position(driven_m).piece];
         let (from_m, length_m) = (piece.from_m, piece.arc.length_m());
         if driven_m - from_m < 0.5 * length_m {
             from_m
@@ -124,8 +124,8 @@ impl Chain {
         }
     }
 
-    pub(super) fn pose(&self, place: Place) -> Pose2 {
-        self.pieces[place.piece].pose_at(place.driven_m)
+    pub(super) fn pose(&self, position: PathPosition) -> Pose2 {
+        self.pieces[position.piece].pose_at(position.driven_m)
     }
 
     /// Driven lengths at which the gear changes.

@@ -1,6 +1,6 @@
 //! Curves that may join two poses: many cheap ones, of which few are looked at closely.
 
-use super::task::Task;
+use super::task::ImproveTask;
 use crate::geometry::joins::{Corner, Tangents};
 use crate::geometry::{Curve, Pose2, dubins, reeds_shepp};
 use crate::numeric::RandomStream;
@@ -35,7 +35,7 @@ pub(super) struct Gap {
 }
 
 impl Gap {
-    /// The same ground driven the other way.
+    /// The same gap driven in the opposite direction.
     fn swapped(self) -> Self {
         let [before, after] = self.curvatures_per_m;
         Self {
@@ -46,7 +46,12 @@ impl Gap {
     }
 
     /// Curves over the gap in some gears.
-    pub(super) fn curves(self, task: &Task, gears: Gears, stream: &mut RandomStream) -> Vec<Curve> {
+    pub(super) fn curves(
+        self,
+        task: &ImproveTask,
+        gears: Gears,
+        stream: &mut RandomStream,
+    ) -> Vec<Curve> {
         let mut curves = Vec::with_capacity(24);
         match gears {
             Gears::Forward => self.push_forward(task, stream, &mut curves),
@@ -66,7 +71,7 @@ impl Gap {
         curves
     }
 
-    fn push_forward(&self, task: &Task, stream: &mut RandomStream, curves: &mut Vec<Curve>) {
+    fn push_forward(&self, task: &ImproveTask, stream: &mut RandomStream, curves: &mut Vec<Curve>) {
         self.push_tangents(task, stream, curves);
         self.push_corners(task, stream, curves);
         if self.distance_m() < TURNING_RADII * task.radius_m {
@@ -74,7 +79,12 @@ impl Gap {
         }
     }
 
-    fn push_tangents(&self, task: &Task, stream: &mut RandomStream, curves: &mut Vec<Curve>) {
+    fn push_tangents(
+        &self,
+        task: &ImproveTask,
+        stream: &mut RandomStream,
+        curves: &mut Vec<Curve>,
+    ) {
         let mut radii = |curvature_per_m: f64| {
             let drawn_m = self.draw_radius_m(task, stream);
             let kept_m = if curvature_per_m == 0.0 {
@@ -97,7 +107,7 @@ impl Gap {
         }
     }
 
-    fn push_corners(&self, task: &Task, stream: &mut RandomStream, curves: &mut Vec<Curve>) {
+    fn push_corners(&self, task: &ImproveTask, stream: &mut RandomStream, curves: &mut Vec<Curve>) {
         let Some(corner) = Corner::between(self.from, self.to) else {
             return;
         };
@@ -112,7 +122,7 @@ impl Gap {
         }
     }
 
-    fn draw_radius_m(&self, task: &Task, stream: &mut RandomStream) -> f64 {
+    fn draw_radius_m(&self, task: &ImproveTask, stream: &mut RandomStream) -> f64 {
         let widest_m = WIDEST_DISTANCES * self.distance_m();
         if stream.unit() < TIGHTEST_SHARE {
             return task.radius_m;

@@ -24,7 +24,7 @@ use crate::progress::{Limits, Status};
 use crate::scenario::MotionMode;
 use chain::Chain;
 use operators::Attempt;
-use task::Task;
+use task::ImproveTask;
 
 /// What a path is improved for; grid coordinates.
 #[derive(Clone, Copy)]
@@ -60,15 +60,15 @@ pub struct Improved {
 
 /// Improves driven paths on a map.
 pub struct Improver<'a> {
-    task: Task<'a>,
+    task: ImproveTask<'a>,
 }
 
 /// Tries, which take much longer than steps of a search, between two looks at the clock.
 const TRIES_PER_LOOK: u64 = 16;
-/// Tries between two looks at whether there is something to tell.
+/// Tries between two looks at whether there is something to report.
 const TRIES_PER_ROUND: u64 = 64;
-/// The least gain that is worth telling, relative to the cost.
-const TELL_GAIN: f64 = 1e-4;
+/// The least gain that is worth reporting, relative to the cost.
+const REPORT_GAIN: f64 = 1e-4;
 /// How far a chain of arcs may end from its goal by rounding, metres and radians.
 const END_TOLERANCE: f64 = 1e-9;
 /// Numbers of pieces that a systematic pass replaces at once, in this order.
@@ -88,7 +88,7 @@ impl<'a> Improver<'a> {
         let meter = DriveMeter::new(obstacles, body, cost, radius_m);
         let meter = soft.map_or(meter, |soft| meter.with_soft_cost(soft));
         Self {
-            task: Task {
+            task: ImproveTask {
                 obstacles,
                 body,
                 radius_m,
@@ -111,7 +111,7 @@ impl<'a> Improver<'a> {
     ) -> Improved {
         let best = DriveMeter::merged(arcs);
         let goal = best.iter().fold(start, |pose, arc| arc.end_from(pose));
-        let mut run = Run {
+        let mut run = LocalSearch {
             task: &self.task,
             chain: Chain::new(&self.task, start, &best),
             start,
@@ -130,7 +130,7 @@ impl<'a> Improver<'a> {
         } else {
             run.search().err()
         };
-        run.tell();
+        run.report();
         Improved {
             start_cost_m,
             cost_m: run.best_m,
@@ -142,8 +142,8 @@ impl<'a> Improver<'a> {
 }
 
 /// The improvement of one path.
-struct Run<'a, 'b, 'c> {
-    task: &'a Task<'a>,
+struct LocalSearch<'a, 'b, 'c> {
+    task: &'a ImproveTask<'a>,
     chain: Chain,
     start: Pose2,
     goal: Pose2,
@@ -156,15 +156,15 @@ struct Run<'a, 'b, 'c> {
     on_improved: &'c mut dyn FnMut(&[Arc], &mut Limits),
 }
 
-impl Run<'_, '_, '_> {
+impl LocalSearch<'_, '_, '_> {
     fn search(&mut self) -> Result<(), Status> {
         self.polish()?;
-        self.wander()?;
+        self.try_at_random()?;
         self.polish()
     }
 
     /// Random tries until they cease to gain.
-    fn wander(&mut self) -> Result<(), Status> {
+    fn try_at_random(&mut self) -> Result<(), Status> {
         let config = self.task.config;
         let mut reference_m = self.chain.cost_m;
         let mut n_stalled = 0;
@@ -242,7 +242,7 @@ impl Run<'_, '_, '_> {
             self.limits.look()?;
         }
         if self.n_tries.is_multiple_of(TRIES_PER_ROUND) {
-            self.tell();
+            self.report();
         }
         self.n_tries += 1;
         Ok(self.seed.stream([self.n_tries, 0]))
@@ -256,10 +256,10 @@ impl Run<'_, '_, '_> {
         }
     }
 
-    /// Keeps and tells a path that is noticeably cheaper. Replaced stretches meet the path to
+    /// Keeps and reports a path that is noticeably cheaper. Replaced stretches meet the path to
     /// rounding; driven from the start on, that adds up, so that the whole is checked once more.
-    fn tell(&mut self) {
-        if self.chain.cost_m >= self.best_m * (1.0 - TELL_GAIN) {
+    fn report(&mut self) {
+        if self.chain.cost_m >= self.best_m * (1.0 - REPORT_GAIN) {
             return;
         }
         let arcs = self.chain.arcs();

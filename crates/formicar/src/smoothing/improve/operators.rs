@@ -1,9 +1,9 @@
 //! The ways to change a path: join two of its places anew, move a place, do without a change of
 //! gear.
 
-use super::chain::{Chain, Piece, Place};
+use super::chain::{Chain, PathPosition, Piece};
 use super::joins::{Gap, Gears, log_uniform};
-use super::task::Task;
+use super::task::ImproveTask;
 use super::window::{Route, Window};
 use crate::geometry::{Curve, Pose2};
 use crate::numeric::RandomStream;
@@ -27,7 +27,7 @@ const N_SIDE_CURVES: usize = 3;
 
 /// One random change of a path.
 pub(super) struct Attempt<'a> {
-    pub(super) task: &'a Task<'a>,
+    pub(super) task: &'a ImproveTask<'a>,
     pub(super) chain: &'a mut Chain,
     pub(super) stream: RandomStream,
 }
@@ -69,7 +69,7 @@ impl Attempt<'_> {
         if to_m <= from_m {
             return false;
         }
-        let (from, to) = (self.chain.place(from_m), self.chain.place(to_m));
+        let (from, to) = (self.chain.position(from_m), self.chain.position(to_m));
         let gears = if any_gears {
             vec![Gears::Forward, Gears::Reverse, Gears::Both]
         } else {
@@ -101,12 +101,13 @@ impl Attempt<'_> {
         let mut reach = || log_uniform(&mut self.stream, shortest_m, SHIFT_REACH_RADII * radius_m);
         let ends_m = [middle_m - reach(), middle_m + reach()];
         let ends_m = ends_m.map(|end_m| end_m.clamp(0.0, length_m));
-        let [from, middle, to] = [ends_m[0], middle_m, ends_m[1]].map(|m| self.chain.place(m));
+        let [from, middle, to] = [ends_m[0], middle_m, ends_m[1]].map(|m| self.chain.position(m));
         if from == middle || middle == to {
             return false;
         }
         let via = self.moved(middle);
-        let ends = [from, to].map(|place| (self.chain.pose(place), self.curvature_at(place)));
+        let ends =
+            [from, to].map(|position| (self.chain.pose(position), self.curvature_at(position)));
         let gaps = [
             Gap {
                 from: ends[0].0,
@@ -140,8 +141,8 @@ impl Attempt<'_> {
     }
 
     /// A pose beside that of a place: toward more room where it is tight, else to any side.
-    fn moved(&mut self, place: Place) -> Pose2 {
-        let pose = self.chain.pose(place);
+    fn moved(&mut self, position: PathPosition) -> Pose2 {
+        let pose = self.chain.pose(position);
         let [least, most] = SHIFT_RADII.map(|radii| radii * self.task.radius_m);
         let by_m = log_uniform(&mut self.stream, least, most);
         let turn_rad = log_uniform(&mut self.stream, TURN_RAD[0], TURN_RAD[1]);
@@ -186,11 +187,11 @@ impl Attempt<'_> {
             + joints.sum::<f64>()
     }
 
-    fn curves(&mut self, [from, to]: [Place; 2], gears: &[Gears]) -> Vec<Curve> {
+    fn curves(&mut self, [from, to]: [PathPosition; 2], gears: &[Gears]) -> Vec<Curve> {
         let gap = Gap {
             from: self.chain.pose(from),
             to: self.chain.pose(to),
-            curvatures_per_m: [from, to].map(|place| self.curvature_at(place)),
+            curvatures_per_m: [from, to].map(|position| self.curvature_at(position)),
         };
         let motion = self.task.motion;
         let mut curves = Vec::new();
@@ -200,12 +201,12 @@ impl Attempt<'_> {
         curves
     }
 
-    fn curvature_at(&self, place: Place) -> f64 {
-        self.chain.pieces[place.piece].arc.curvature_per_m
+    fn curvature_at(&self, position: PathPosition) -> f64 {
+        self.chain.pieces[position.piece].arc.curvature_per_m
     }
 
     /// Gears worth trying between two places.
-    fn gears_between(&self, from: Place, to: Place) -> Vec<Gears> {
+    fn gears_between(&self, from: PathPosition, to: PathPosition) -> Vec<Gears> {
         let pieces = &self.chain.pieces[from.piece..=to.piece];
         let has_forward = pieces.iter().any(Piece::is_forward);
         let has_reverse = pieces.iter().any(|piece| !piece.is_forward());

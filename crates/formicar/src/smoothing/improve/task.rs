@@ -8,7 +8,7 @@ use crate::scenario::MotionMode;
 
 /// A body on a map with its parameters; grid coordinates.
 #[derive(Clone, Copy)]
-pub(super) struct Task<'a> {
+pub(super) struct ImproveTask<'a> {
     pub(super) obstacles: &'a ObstacleMap,
     pub(super) body: &'a Body,
     pub(super) radius_m: f64,
@@ -17,7 +17,7 @@ pub(super) struct Task<'a> {
     pub(super) config: &'a ImproveConfig,
 }
 
-impl Task<'_> {
+impl ImproveTask<'_> {
     /// Whether the body is free along an arc.
     pub(super) fn is_free(&self, start: Pose2, arc: Arc) -> bool {
         let drive = Drive {

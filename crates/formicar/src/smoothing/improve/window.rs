@@ -1,7 +1,7 @@
 //! A stretch of the path that may be replaced, and what its replacement would cost.
 
-use super::chain::{Chain, Piece, Place};
-use super::task::Task;
+use super::chain::{Chain, PathPosition, Piece};
+use super::task::ImproveTask;
 use crate::geometry::{Arc, Curve, Pose2};
 
 /// What a replacement must gain, metres: more than rounding.
@@ -52,7 +52,7 @@ impl Route {
     }
 
     /// Whether it certainly hits something.
-    pub(super) fn certainly_hits(&self, task: &Task) -> bool {
+    pub(super) fn certainly_hits(&self, task: &ImproveTask) -> bool {
         let mut arcs = self.placed();
         arcs.any(|(start, arc)| task.certainly_hits(start, arc))
     }
@@ -60,7 +60,12 @@ impl Route {
 
 impl Window {
     /// The stretch from a place to a later one.
-    pub(super) fn new(task: &Task, chain: &Chain, from: Place, to: Place) -> Self {
+    pub(super) fn new(
+        task: &ImproveTask,
+        chain: &Chain,
+        from: PathPosition,
+        to: PathPosition,
+    ) -> Self {
         let pieces = &chain.pieces;
         // A place between two pieces belongs to the one outside: it may be continued.
         let (first, head_m) = match from.piece.checked_sub(1) {
@@ -84,7 +89,7 @@ impl Window {
     }
 
     /// The route with its bound; none where that is too high.
-    pub(super) fn bounded(&self, task: &Task, mut route: Route) -> Option<Route> {
+    pub(super) fn bounded(&self, task: &ImproveTask, mut route: Route) -> Option<Route> {
         let rests = [&self.head, &self.tail].map(|rest| rest.as_ref().map(|rest| rest.arc));
         let [head, tail] = [&self.head, &self.tail].map(|rest| {
             rest.as_ref().map_or(0.0, |rest| {
@@ -106,7 +111,7 @@ impl Window {
     }
 
     /// Prices what stays of the cut pieces, once for all routes.
-    pub(super) fn settle(&mut self, task: &Task) {
+    pub(super) fn settle(&mut self, task: &ImproveTask) {
         for rest in [&mut self.head, &mut self.tail].into_iter().flatten() {
             if rest.known_m.is_none() {
                 rest.known_m = Some(task.meter.arc_m(rest.start, rest.arc));
@@ -115,7 +120,7 @@ impl Window {
     }
 
     /// Replaces the stretch if that is cheaper and free; whether it was.
-    pub(super) fn replace(&self, task: &Task, chain: &mut Chain, route: &Route) -> bool {
+    pub(super) fn replace(&self, task: &ImproveTask, chain: &mut Chain, route: &Route) -> bool {
         let mut drafts = self.drafts(route);
         if drafts.is_empty() || !self.price(task, &mut drafts) {
             return false;
@@ -155,7 +160,7 @@ impl Window {
     }
 
     /// Works out what the drafts cost; whether that is less than before.
-    fn price(&self, task: &Task, drafts: &mut [Draft]) -> bool {
+    fn price(&self, task: &ImproveTask, drafts: &mut [Draft]) -> bool {
         let joints = drafts.windows(2);
         let joints = joints.map(|w| task.meter.joint_m(w[0].arc, w[1].arc));
         let grounds = drafts.iter();

@@ -1,21 +1,21 @@
 //! Curves from a given start heading onto a leg, and from a leg to a given goal heading.
 
-use super::search::{Reached, Search, Step};
+use super::search::{Leg, Reached, Search, Step};
 use super::sight::Sight;
 use crate::geometry::{Arc, Curve, Point2, Pose2};
 
-/// How far from the ends curves to given headings begin and end, turning radii.
+/// Farthest distance from the ends at which curves to given headings begin and end, turning radii.
 const CURVE_REACH_RADII: f64 = 5.0;
 /// Radii of these curves, in turning radii.
 const CURVE_RADII: [f64; 3] = [1.0, 2.0, 4.0];
-/// How many of these curves are tried between two poses, cheapest first.
+/// Curves tried between two poses, cheapest first.
 const MAX_CURVES: usize = 6;
 
 impl Search<'_> {
-    /// Opens what begins at the start.
+    /// Opens the legs and curves that begin at the start.
     pub(super) fn open_start(&mut self) {
         for sight in self.sights.from(0).to_vec() {
-            self.close((0, sight), (Reached::AtStart, 0.0), 0.0);
+            self.close(Leg::new(0, sight, Reached::AtStart), 0.0);
         }
         if self.task.ends.start_is_free {
             return;
@@ -101,7 +101,7 @@ impl Search<'_> {
         }
         if let Some(tightness_m) = self.task.tightness_m(*start, arcs.arcs()) {
             let cost = cost + switch + tightness_m;
-            self.close((from, sight), (Reached::ByCurve(curve), 0.0), cost);
+            self.close(Leg::new(from, sight, Reached::ByCurve(curve)), cost);
         }
     }
 

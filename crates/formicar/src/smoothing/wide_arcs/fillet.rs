@@ -1,8 +1,8 @@
-//! The arc that rounds a corner, and what it costs.
+//! The arc that rounds a corner, and its cost.
 
-use crate::geometry::Arc;
-use crate::smoothing::task::Task;
-use crate::smoothing::{TurnOrder, TwoTurning};
+use crate::geometry::{Arc, Point2};
+use crate::smoothing::task::RoundingTask;
+use crate::smoothing::two_turning::{TurnOrder, TwoTurning};
 use std::f64::consts::PI;
 
 /// Factor from an arc's radius to the next one tried.
@@ -14,21 +14,33 @@ const STRAIGHT_RAD: f64 = 1e-9;
 /// The sharpest corner, radians.
 const MAX_TURN_RAD: f64 = 0.75 * PI;
 
+/// A corner with the turning that rounds it.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::smoothing) struct Rounded {
+    pub(in crate::smoothing) place: Point2,
+    pub(in crate::smoothing) turning: TwoTurning,
+}
+
 /// An arc that rounds a corner; one without a turn goes straight on.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Fillet {
     pub(super) turn_rad: f64,
     pub(super) radius_m: f64,
-    /// From where the arc begins to the corner, and from there to where it ends, metres.
+    /// Distance of both ends of the arc from the corner, metres.
     pub(super) tangent_m: f64,
-    /// What it costs that the arc passes near obstacles, metres.
+    /// Cost of passing near obstacles along the arc, metres.
     pub(super) tightness_m: f64,
 }
 
 impl Fillet {
-    /// The arc of a corner with some room on the shorter of both legs: the widest, made tighter so
-    /// many times. None where there is no room for one, or the turn is too sharp.
-    pub(super) fn new(task: &Task, turn_rad: f64, room_m: f64, n_tighter: i32) -> Option<Self> {
+    /// The widest arc that the room on the shorter of both legs allows, tightened `n_tighter` times;
+    /// none where there is no room for one, or the turn is too sharp.
+    pub(super) fn new(
+        task: &RoundingTask,
+        turn_rad: f64,
+        room_m: f64,
+        n_tighter: i32,
+    ) -> Option<Self> {
         if turn_rad.abs() < STRAIGHT_RAD {
             return (n_tighter == 0).then_some(Self::default());
         }
@@ -54,8 +66,8 @@ impl Fillet {
         })
     }
 
-    /// What a corner costs beyond the length of its legs, metres.
-    pub(super) fn cost(&self, task: &Task) -> f64 {
+    /// Cost of a corner beyond the length of its legs, metres.
+    pub(super) fn cost(&self, task: &RoundingTask) -> f64 {
         if self.turn_rad == 0.0 {
             return 0.0;
         }

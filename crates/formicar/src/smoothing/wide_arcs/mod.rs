@@ -13,4 +13,4 @@ mod refine;
 mod search;
 mod sight;
 
-pub(super) use search::{WideWay, widest};
+pub(super) use search::{WidePath, widest};

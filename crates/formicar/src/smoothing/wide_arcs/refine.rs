@@ -1,9 +1,8 @@
 //! A chain of legs and arcs made cheaper by moving and leaving out corners.
 
-use super::fillet::Fillet;
-use super::search::Rounded;
+use super::fillet::{Fillet, Rounded};
 use crate::geometry::{Arc, Point2, Pose2, angle_difference};
-use crate::smoothing::task::Task;
+use crate::smoothing::task::RoundingTask;
 use std::ops::RangeInclusive;
 
 /// How far corners are moved, in turning radii, ever less.
@@ -27,7 +26,7 @@ pub(super) struct Chain {
 
 impl Chain {
     /// Moves each corner about, and leaves corners out, as long as that gains something.
-    pub(super) fn refine(&mut self, task: &Task) {
+    pub(super) fn refine(&mut self, task: &RoundingTask) {
         self.measure(task);
         for step_radii in MOVES_RADII {
             for _ in 0..MAX_PASSES {
@@ -39,7 +38,7 @@ impl Chain {
     }
 
     /// Works out how near to obstacles all arcs and legs pass.
-    fn measure(&mut self, task: &Task) {
+    fn measure(&mut self, task: &RoundingTask) {
         for corner in 1..self.points.len() - 1 {
             let fillet = self.fillets[corner - 1];
             let tightness_m = self.arc_tightness_m(task, corner, &fillet);
@@ -49,7 +48,7 @@ impl Chain {
     }
 
     /// Tries all corners once; whether anything was gained.
-    fn pass(&mut self, task: &Task, step_m: f64) -> bool {
+    fn pass(&mut self, task: &RoundingTask, step_m: f64) -> bool {
         let mut has_gained = false;
         let mut corner = 1;
         while corner < self.points.len() - 1 {
@@ -144,7 +143,7 @@ impl Chain {
     /// body stays free.
     fn take_if_cheaper(
         &mut self,
-        task: &Task,
+        task: &RoundingTask,
         mut to: Self,
         changed: RangeInclusive<usize>,
     ) -> bool {
@@ -170,7 +169,7 @@ impl Chain {
     }
 
     /// What some corners cost with the legs before, between and behind them.
-    fn cost(&self, task: &Task, corners: RangeInclusive<usize>) -> f64 {
+    fn cost(&self, task: &RoundingTask, corners: RangeInclusive<usize>) -> f64 {
         let legs = corners.start().saturating_sub(1)..=(*corners.end()).max(corners.start() - 1);
         let legs = legs
             .map(|leg| self.length_m(leg) + self.tightness_m[leg])
@@ -182,7 +181,12 @@ impl Chain {
 
     /// Gives some corners their widest arcs or, below a limit of their cost, the widest that are
     /// free; whether all have one.
-    fn round(&mut self, task: &Task, corners: RangeInclusive<usize>, limit: Option<f64>) -> bool {
+    fn round(
+        &mut self,
+        task: &RoundingTask,
+        corners: RangeInclusive<usize>,
+        limit: Option<f64>,
+    ) -> bool {
         corners.clone().all(|corner| {
             let turn_rad = angle_difference(self.heading_rad(corner), self.heading_rad(corner - 1));
             let room_m = self.room_m(corner, &corners);
@@ -225,14 +229,14 @@ impl Chain {
         room(corner - 1, corner - 1).min(room(corner, corner + 1))
     }
 
-    fn arc_tightness_m(&self, task: &Task, corner: usize, fillet: &Fillet) -> Option<f64> {
+    fn arc_tightness_m(&self, task: &RoundingTask, corner: usize, fillet: &Fillet) -> Option<f64> {
         let leg = corner - 1;
         let begins = self.pose(leg, self.length_m(leg) - fillet.tangent_m);
         task.tightness_m(begins, &[fillet.arc()])
     }
 
     /// Works out how near to obstacles some legs pass; whether all of them are free.
-    fn measure_legs(&mut self, task: &Task, mut legs: RangeInclusive<usize>) -> bool {
+    fn measure_legs(&mut self, task: &RoundingTask, mut legs: RangeInclusive<usize>) -> bool {
         legs.all(|leg| {
             let [from_m, to_m] = self.straight_m(leg);
             let arc = Arc::new(0.0, to_m - from_m);

@@ -1,12 +1,11 @@
 //! A* over legs and the arcs between them.
 
-use super::fillet::Fillet;
+use super::fillet::{Fillet, Rounded};
 use super::refine::Chain;
-use super::sight::{Sight, Sights};
+use super::sight::{Sight, Sights, View};
 use crate::geometry::{Arc, Curve, Point2, Pose2, angle_difference};
-use crate::smoothing::TwoTurning;
 use crate::smoothing::open_list::OpenList;
-use crate::smoothing::task::Task;
+use crate::smoothing::task::RoundingTask;
 use std::collections::HashMap;
 
 /// The longest leg, turning radii.
@@ -16,31 +15,25 @@ const CROWDED_SHARE: f64 = 0.95;
 /// Where the first corner may be on the line of the start's heading, turning radii.
 const LEAD_RADII: [f64; 7] = [0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0];
 
-/// A corner and how it is rounded.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::smoothing) struct Rounded {
-    pub(in crate::smoothing) place: Point2,
-    pub(in crate::smoothing) turning: TwoTurning,
-}
-
-/// A way of straight lines, arcs and curves.
+/// A path of straight lines, arcs and curves.
 #[derive(Clone, Debug)]
-pub(in crate::smoothing) struct WideWay {
+pub(in crate::smoothing) struct WidePath {
     pub(in crate::smoothing) start: Pose2,
     pub(in crate::smoothing) arcs: Vec<Arc>,
     pub(in crate::smoothing) points: Vec<Point2>,
     pub(in crate::smoothing) corners: Vec<Rounded>,
 }
 
-/// The way of least cost through some of the points of a polyline, its ends among them, with the
-/// headings asked for; none where no such way is free.
-pub(in crate::smoothing) fn widest(task: &Task, polyline: &[Point2]) -> Option<WideWay> {
+/// The path of least cost through some of the points of a polyline, its ends among them, with the
+/// requested headings; none where no such path is free.
+pub(in crate::smoothing) fn widest(task: &RoundingTask, polyline: &[Point2]) -> Option<WidePath> {
     let (config, radius_m) = (task.config, task.radius_m);
-    let map = (
-        task.obstacles.lethal(),
-        task.obstacles.frame().resolution_m(),
-    );
-    let measures = [LEG_RADII, config.corner_radii].map(|radii| radii * radius_m);
+    let view = View {
+        lethal: task.obstacles.lethal(),
+        resolution_m: task.obstacles.frame().resolution_m(),
+        reach_m: LEG_RADII * radius_m,
+        corner_m: config.corner_radii * radius_m,
+    };
     let lead =
         |start: &Pose2| LEAD_RADII.map(|radii| start.advance(0.0, radii * radius_m).position());
     let starts = task
@@ -50,7 +43,7 @@ pub(in crate::smoothing) fn widest(task: &Task, polyline: &[Point2]) -> Option<W
         .take(usize::from(!task.ends.start_is_free));
     let leads: Vec<Point2> = starts.flat_map(lead).collect();
     let mut search = Search {
-        sights: Sights::new(polyline, &leads, map, measures)?,
+        sights: Sights::new(polyline, &leads, &view)?,
         task,
         open: OpenList::default(),
         legs: Vec::new(),
@@ -66,10 +59,10 @@ pub(in crate::smoothing) fn widest(task: &Task, polyline: &[Point2]) -> Option<W
             Step::Turn(leg, sight, radius) => search.try_turn(leg, sight, radius, cost),
             Step::Tail(leg) => search.expand_tail(leg, cost),
             Step::TailCurve(leg, curve) if search.is_tail_free(leg, curve) => {
-                return Some(search.way(leg, Some(curve)));
+                return Some(search.path(leg, Some(curve)));
             }
             Step::End(leg) if search.is_whole_leg_free(leg) => {
-                return Some(search.way(leg, None));
+                return Some(search.path(leg, None));
             }
             Step::TailCurve(..) | Step::End(_) => {}
         }
@@ -77,14 +70,14 @@ pub(in crate::smoothing) fn widest(task: &Task, polyline: &[Point2]) -> Option<W
     None
 }
 
-/// What waits on the list: points, legs and curves by number.
+/// A candidate on the open list: points, legs and curves by number.
 #[derive(Clone, Copy)]
 pub(super) enum Step {
     /// Some curve from the start onto a leg, at a lower bound of its cost.
     Lead(usize, Sight),
     /// A curve from the start onto a leg.
     LeadCurve(usize, Sight, usize),
-    /// From a leg to the next by an arc, the widest made tighter so many times.
+    /// From a leg to the next by an arc: the widest one, tightened a number of times.
     Turn(usize, Sight, i32),
     /// Some curve from the end of a leg to the goal, at a lower bound of its cost.
     Tail(usize),
@@ -94,7 +87,7 @@ pub(super) enum Step {
     End(usize),
 }
 
-/// How a leg is reached.
+/// The origin of a leg.
 #[derive(Clone, Copy)]
 pub(super) enum Reached {
     /// It begins at the start.
@@ -109,17 +102,33 @@ pub(super) struct Leg {
     from: usize,
     pub(super) sight: Sight,
     reached: Reached,
-    /// Where on the leg what leads to it ends, metres.
+    /// The end of the arc that leads onto the leg, metres from the leg's first point.
     begins_m: f64,
-    /// From there the body is known to be free up to here, and to hit something before there.
+    /// From there the body is known to be free up to `clear_m`, and to hit something before
+    /// `hit_m`.
     clear_m: f64,
     hit_m: f64,
-    /// What it costs that it passes near obstacles on that way, metres.
+    /// Cost of passing near obstacles on that stretch, metres.
     tightness_m: f64,
 }
 
+impl Leg {
+    /// A leg that begins at its first point.
+    pub(super) fn new(from: usize, sight: Sight, reached: Reached) -> Self {
+        Self {
+            from,
+            sight,
+            reached,
+            begins_m: 0.0,
+            clear_m: 0.0,
+            hit_m: f64::INFINITY,
+            tightness_m: 0.0,
+        }
+    }
+}
+
 pub(super) struct Search<'a> {
-    pub(super) task: &'a Task<'a>,
+    pub(super) task: &'a RoundingTask<'a>,
     pub(super) sights: Sights,
     pub(super) open: OpenList<Step>,
     pub(super) legs: Vec<Leg>,
@@ -134,23 +143,10 @@ impl Search<'_> {
     }
 
     /// Keeps a leg that is reached at a cost, and opens what may follow it.
-    pub(super) fn close(
-        &mut self,
-        (from, sight): (usize, Sight),
-        (reached, begins_m): (Reached, f64),
-        cost: f64,
-    ) {
-        let number = self.legs.len();
-        self.closed.insert((from, sight.to), number);
-        self.legs.push(Leg {
-            from,
-            sight,
-            reached,
-            begins_m,
-            clear_m: begins_m,
-            hit_m: f64::INFINITY,
-            tightness_m: 0.0,
-        });
+    pub(super) fn close(&mut self, leg: Leg, cost: f64) {
+        let (number, sight) = (self.legs.len(), leg.sight);
+        self.closed.insert((leg.from, sight.to), number);
+        self.legs.push(leg);
         let cost = cost + sight.distance_m;
         if sight.to == self.sights.last() {
             if self.task.ends.goal_is_free {
@@ -225,8 +221,9 @@ impl Search<'_> {
             return;
         };
         let cost = cost + fillet.cost(self.task) + straight_m + arc_m;
-        let reached = (Reached::FromLeg(leg, fillet), fillet.tangent_m);
-        self.close((from, next), reached, cost);
+        let mut reached = Leg::new(from, next, Reached::FromLeg(leg, fillet));
+        (reached.begins_m, reached.clear_m) = (fillet.tangent_m, fillet.tangent_m);
+        self.close(reached, cost);
     }
 
     /// The pose on a leg, some metres from its beginning.
@@ -235,8 +232,8 @@ impl Search<'_> {
         Pose2::at(self.sights.points[from], sight.heading_rad).advance(0.0, at_m)
     }
 
-    /// What it costs that the body passes near obstacles from where a leg begins up to some metres
-    /// from its first point; none where it hits something.
+    /// Cost of passing near obstacles from where a leg begins up to some metres from its first
+    /// point; none where the body hits something.
     fn straight_tightness_m(&mut self, leg: usize, up_to_m: f64) -> Option<f64> {
         let Leg {
             clear_m,
@@ -273,8 +270,8 @@ impl Search<'_> {
         self.straight_tightness_m(leg, length_m).is_some()
     }
 
-    /// The way that ends with a leg and, where the goal's heading is given, a curve.
-    fn way(&self, last: usize, tail: Option<usize>) -> WideWay {
+    /// The path that ends with a leg and, where the goal's heading is given, a curve.
+    fn path(&self, last: usize, tail: Option<usize>) -> WidePath {
         let mut legs = vec![last];
         while let Reached::FromLeg(before, _) = self.legs[legs[legs.len() - 1]].reached {
             legs.push(before);
@@ -309,7 +306,7 @@ impl Search<'_> {
         points.extend(&chain.points);
         points.push(self.sights.points[self.sights.last()]);
         points.dedup();
-        WideWay {
+        WidePath {
             start,
             arcs: [arcs_of(lead), chain.arcs(), arcs_of(tail)].concat(),
             points,

@@ -1,4 +1,4 @@
-//! Which points of a polyline see which, and what the rest of the way costs at least.
+//! Lines of sight between the points of a polyline, and lower bounds of the cost to its end.
 
 use crate::geometry::Point2;
 use crate::map::{BitGrid, DiagonalRule, line_of_sight};
@@ -6,8 +6,8 @@ use std::ops::Range;
 
 /// Points nearer to each other than this are one, metres.
 const SAME_PLACE_M: f64 = 1e-9;
-/// What is believed of the least cost of the rest: more than the truth, so that the search does not
-/// try all that might be a little better; the result costs at most as many times the least.
+/// Weight of the heuristic: above 1 the search skips paths that might be slightly better; the
+/// result costs at most this many times the least.
 const HASTE: f64 = 1.5;
 /// Points looked at one by one from a point; those after them with growing gaps.
 const N_NEAR: usize = 12;
@@ -20,27 +20,33 @@ pub(super) struct Sight {
     pub(super) heading_rad: f64,
 }
 
-/// The points of a polyline, after its first one some leads, with what each sees.
+/// The map on which points see each other, and the lengths that count.
+pub(super) struct View<'a> {
+    /// The cells that block the line of sight.
+    pub(super) lethal: &'a BitGrid,
+    pub(super) resolution_m: f64,
+    /// The longest distance over which points see each other.
+    pub(super) reach_m: f64,
+    /// Cost of a corner.
+    pub(super) corner_m: f64,
+}
+
+/// The points of a polyline, after its first one some leads, with the points that each sees.
 pub(super) struct Sights {
     pub(super) points: Vec<Point2>,
     n_leads: usize,
     all: Vec<Sight>,
     /// Of each point, its part of `all`.
     ranges: Vec<Range<usize>>,
-    /// The least that the way from each point to the last costs, metres.
+    /// Least cost from each point to the last, metres.
     rest: Vec<f64>,
 }
 
 impl Sights {
-    /// None where the polyline does not move. Points see each other over at most `reach_m` where
-    /// no lethal cell lies between; a corner costs `corner_m`. Leads are where the first corner
-    /// may be if the start has a heading; the first point sees nothing else then.
-    pub(super) fn new(
-        polyline: &[Point2],
-        leads: &[Point2],
-        (lethal, resolution_m): (&BitGrid, f64),
-        [reach_m, corner_m]: [f64; 2],
-    ) -> Option<Self> {
+    /// None where the polyline does not move. Leads are the places of the first corner if the start
+    /// has a heading; the first point then sees nothing else.
+    pub(super) fn new(polyline: &[Point2], leads: &[Point2], view: &View) -> Option<Self> {
+        let View { lethal, .. } = *view;
         let mut points = polyline.to_vec();
         points.dedup_by(|a, b| a.distance(*b) < SAME_PLACE_M);
         if points.len() < 2 {
@@ -48,7 +54,7 @@ impl Sights {
         }
         points.splice(1..1, leads.iter().copied());
         let (n_leads, last) = (leads.len(), points.len() - 1);
-        let scale = 1.0 / resolution_m;
+        let scale = 1.0 / view.resolution_m;
         let sees = |a: Point2, b: Point2| {
             line_of_sight(lethal, DiagonalRule::NoObstacles, a * scale, b * scale)
         };
@@ -60,7 +66,7 @@ impl Sights {
             for to in all_leads.chain(later) {
                 let step = points[to] - at;
                 let distance_m = step.norm();
-                if distance_m <= reach_m && distance_m > SAME_PLACE_M && sees(at, points[to]) {
+                if distance_m <= view.reach_m && distance_m > SAME_PLACE_M && sees(at, points[to]) {
                     all.push(Sight {
                         to,
                         distance_m,
@@ -77,7 +83,7 @@ impl Sights {
             all,
             ranges,
         };
-        sights.measure_rest(corner_m);
+        sights.measure_rest(view.corner_m);
         Some(sights)
     }
 
@@ -102,13 +108,13 @@ impl Sights {
         self.points.len() - 1
     }
 
-    /// What a point sees.
+    /// The lines of sight from a point.
     pub(super) fn from(&self, point: usize) -> &[Sight] {
         &self.all[self.ranges[point].clone()]
     }
 
-    /// The least that the way from a point to the last costs, metres; corners there count, the one
-    /// at the point does not.
+    /// Least cost from a point to the last, metres; corners on the way count, one at the point does
+    /// not.
     pub(super) fn rest_m(&self, point: usize) -> f64 {
         HASTE * self.rest[point]
     }
@@ -146,12 +152,18 @@ mod tests {
     fn walls_hide_points_and_lengthen_what_remains() {
         let map = OccupancyGrid::from_rows(&["....", ".##.", "...."], 1.0).unwrap();
         let points = [(0.5, 0.5), (0.5, 2.5), (3.5, 2.5)].map(|(x, y)| Point2::new(x, y));
-        let sights = Sights::new(&points, &[], (&map.lethal_cells(), 1.0), [100.0, 0.5]).unwrap();
+        let view = View {
+            lethal: &map.lethal_cells(),
+            resolution_m: 1.0,
+            reach_m: 100.0,
+            corner_m: 0.5,
+        };
+        let sights = Sights::new(&points, &[], &view).unwrap();
         let seen = |from: usize| sights.from(from).iter().map(|s| s.to).collect::<Vec<_>>();
         assert_eq!((seen(0), seen(1)), (vec![1], vec![2]));
         assert_eq!([0, 1, 2].map(|i| sights.rest_m(i) / HASTE), [5.5, 3.0, 0.0]);
         let lead = Point2::new(0.5, 1.5);
-        let led = Sights::new(&points, &[lead], (&map.lethal_cells(), 1.0), [100.0, 0.5]).unwrap();
+        let led = Sights::new(&points, &[lead], &view).unwrap();
         let seen = |from: usize| led.from(from).iter().map(|s| s.to).collect::<Vec<_>>();
         assert_eq!(
             (seen(0), seen(1), led.after_start()),

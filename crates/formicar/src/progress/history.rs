@@ -1,21 +1,19 @@
-//! What a run of a colony came to.
+//! The iterations of a run, and why it stopped.
 
-use crate::path::GridPath;
-use crate::progress::{IterationRecord, Status};
+use super::{IterationRecord, Limits, Status};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The iterations of a run in their order.
+/// The iterations of a colony, or the generations of a population, in their order.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct History {
-    /// What each came to.
+    /// One record per iteration.
     pub iterations: Vec<IterationRecord>,
 }
 
 impl History {
-    /// The iteration that brought the best path, counted from 1: after so many the colony had
-    /// converged. None if no ant arrived.
+    /// Number of iterations until the best path was found; none if no path was found.
     pub fn converged_after(&self) -> Option<u32> {
         let last = self.iterations.last()?.best_so_far_cost?;
         let first = self
@@ -26,15 +24,15 @@ impl History {
     }
 }
 
-/// Why a colony stopped.
+/// Why a run of iterations stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Stop {
     /// All iterations are done.
     Iterations,
-    /// No better path for as many iterations as allowed.
+    /// No better path was found for the number of iterations that the configuration allows.
     Stall,
-    /// A path is as good as was asked for.
+    /// A path is at least as good as the configuration asks for.
     TargetCost,
     /// The step budget ran out.
     Budget,
@@ -60,7 +58,7 @@ impl Stop {
         }
     }
 
-    /// How a run without a path ended.
+    /// The status of a run that stopped without a path.
     pub fn status(self) -> Status {
         match self {
             Self::NoWay => Status::NoPath,
@@ -73,18 +71,22 @@ impl Stop {
     }
 }
 
-/// What a run of a colony came to.
-#[derive(Clone, Debug)]
-pub struct ColonyRun {
-    /// The cheapest path of all ants; none if none arrived.
-    pub best: Option<GridPath>,
-    /// The paths that were the cheapest before it, the latest first; kept by colonies that step
-    /// by chords.
-    pub earlier: Vec<GridPath>,
-    /// All iterations.
-    pub history: History,
-    /// Why it stopped.
-    pub stop: Stop,
-    /// Pheromone at the end by cell, row by row; not a number where no ant can go.
-    pub pheromone: Vec<f32>,
+/// Runs iterations until one of them returns a reason to stop, the deadline passes, the caller
+/// cancels, or `n_iterations` are done.
+pub(crate) fn iterate<E>(
+    n_iterations: u32,
+    limits: &mut Limits,
+    mut run_one: impl FnMut(u32, &mut Limits) -> Result<Option<Stop>, E>,
+) -> Result<Stop, E> {
+    for iteration in 0..n_iterations {
+        match limits.look() {
+            Err(Status::Cancelled) => return Ok(Stop::Cancelled),
+            Err(_) => return Ok(Stop::Deadline),
+            Ok(()) => {}
+        }
+        if let Some(stop) = run_one(iteration, limits)? {
+            return Ok(stop);
+        }
+    }
+    Ok(Stop::Iterations)
 }

@@ -1,23 +1,23 @@
-//! A problem made ready for a configuration: what stays the same over all generations.
+//! A problem prepared for a configuration: everything that stays the same over all generations.
 
 use super::config::ChordConfig;
 use super::numbered::Numbered;
 use super::problem::ChordProblem;
 use super::ring::{Ring, moved};
 use super::safety::Guard;
-use crate::colony::config::ColonyError;
 use crate::colony::corridor::Corridor;
-use crate::colony::engine::RunError;
+use crate::colony::error::{ColonyError, RunError};
+use crate::colony::generation::StepSpace;
 use crate::geometry::{Point2, angle_difference};
 use crate::map::Cell;
 use crate::objective::{PolylineCost, SteeringMeter};
 use crate::path::GridPath;
-use crate::progress::{Limits, path_of};
+use crate::progress::Limits;
 use crate::search::{GoalField, check_end};
 use crate::vehicle::SuspendedSteering;
 
-/// The ground of a colony that steps by chords.
-pub(super) struct Ground<'a> {
+/// The cells, steps and limits that ants choose from, made ready for a configuration.
+pub(super) struct ChordGraph<'a> {
     pub(super) problem: &'a ChordProblem<'a>,
     pub(super) config: &'a ChordConfig,
     pub(super) start: Cell,
@@ -25,27 +25,27 @@ pub(super) struct Ground<'a> {
     pub(super) resolution_m: f64,
     pub(super) wheelbase_m: f64,
     pub(super) ring: Ring,
-    /// By step and following step what the turn between them asks for; see [`Self::turn`].
+    /// The turn between every two steps; see [`Self::turn`].
     turns: Vec<Turn>,
-    /// By step the following ones that the rigid vehicle can steer into.
+    /// By step the next steps that the rigid vehicle can steer into.
     pub(super) followers: Vec<Vec<u8>>,
     pub(super) guard: Guard,
     pub(super) cells: Numbered,
-    /// By number the shortest way to the goal, cells.
+    /// By number the shortest distance to the goal, cells.
     pub(super) to_go: Vec<f32>,
-    /// The most that a step may lengthen the way, cells.
+    /// The largest detour of a step, cells.
     pub(super) step_loss: f64,
     /// The shortest path over cells.
     pub(super) shortest: GridPath,
-    /// What it comes to when walked by chords.
+    /// Its cost when walked by chords.
     pub(super) reference: PolylineCost,
-    /// Counts what an ant's steps cost, at rest.
+    /// Adds up the cost of an ant's steps; here before the first step.
     pub(super) meter: SteeringMeter,
     /// The most steps of an ant.
     pub(super) max_steps: usize,
 }
 
-/// What a step asks for after another.
+/// The turn from one step to the next.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Turn {
     /// Radians, positive left.
@@ -54,7 +54,7 @@ pub(super) struct Turn {
     pub(super) needed_rad: f64,
 }
 
-impl<'a> Ground<'a> {
+impl<'a> ChordGraph<'a> {
     /// Prepares two goal fields, the corridor, the ring and the swept masks; none where the grid
     /// has no way.
     pub(super) fn new(
@@ -82,7 +82,7 @@ impl<'a> Ground<'a> {
         let step_m = mean(&ring.lengths) * resolution_m;
         let suspended = SuspendedSteering::new(steering, config.limit.suspension(), step_m)
             .map_err(ColonyError::from)?;
-        let mut ground = Self {
+        let mut graph = Self {
             problem,
             config,
             start,
@@ -109,12 +109,12 @@ impl<'a> Ground<'a> {
             max_steps: 64 + (4.0 * shortest_cells / f64::from(config.reach)) as usize,
             ring,
         };
-        ground.relate_steps(steering[1]);
-        ground.reference = ground.measure_shortest();
-        Ok(Some(ground))
+        graph.relate_steps(steering[1]);
+        graph.reference = graph.measure_shortest();
+        Ok(Some(graph))
     }
 
-    /// Works out what every step asks for after every other.
+    /// Computes the turn between every two steps.
     fn relate_steps(&mut self, max_steer_rad: f64) {
         let n = self.ring.len();
         for from in 0..n {
@@ -149,7 +149,7 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// What a turn before a step of a length asks for.
+    /// The steering needed for a turn before a step of a length.
     pub(super) fn asked(&self, turn_rad: f64, length_m: f64) -> Turn {
         Turn {
             turn_rad,
@@ -181,13 +181,18 @@ impl<'a> Ground<'a> {
         (dx * dx + dy * dy).sqrt()
     }
 
-    /// The cells of a way.
-    pub(super) fn cells_of(&self, steps: &[u8]) -> impl Iterator<Item = Cell> {
-        let path = path_of(&self.ring.moves, [self.start, self.goal], steps);
-        path.cells.into_iter()
+    /// The grid, the ends of all paths, and the steps of the ring.
+    pub(super) fn space(&self) -> StepSpace<'_> {
+        StepSpace {
+            start: self.start,
+            goal: self.goal,
+            moves: &self.ring.moves,
+            n_cols: self.problem.moves.n_cols(),
+            n_rows: self.problem.moves.n_rows(),
+        }
     }
 
-    /// The cell that a step leads to, with its number; none where ants may not go.
+    /// The cell that a step leads to, with its number; none if ants may not go there.
     #[inline]
     pub(super) fn step_to(&self, from: Cell, step: usize) -> Option<(Cell, usize)> {
         let to = moved(from, self.ring.moves[step]);

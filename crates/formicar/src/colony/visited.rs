@@ -1,9 +1,9 @@
-//! Which cells an ant has visited, so that the eight around a cell are read in one go.
+//! The cells that an ant has visited, laid out so that the eight around a cell are read at once.
 
 /// A bit for each cell in words of 62 columns, with a bit more on either side that repeats the
 /// neighboring word's: the three cells of a row around any cell lie in one word.
 #[derive(Clone, Debug)]
-pub(super) struct Footmarks {
+pub(super) struct VisitedCells {
     words: Vec<u64>,
     words_per_row: usize,
 }
@@ -11,11 +11,11 @@ pub(super) struct Footmarks {
 /// Columns to a word.
 const COLUMNS: usize = 62;
 
-/// Word and bit of a cell.
+/// The word and the bit of a cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Place(u32);
+pub(super) struct BitAddress(u32);
 
-impl Place {
+impl BitAddress {
     fn word(self) -> usize {
         (self.0 >> 6) as usize
     }
@@ -25,7 +25,7 @@ impl Place {
     }
 }
 
-impl Footmarks {
+impl VisitedCells {
     pub(super) fn new(n_cols: usize, n_rows: usize) -> Self {
         let words_per_row = Self::words_per_row(n_cols);
         Self {
@@ -39,26 +39,26 @@ impl Footmarks {
         n_cols.div_ceil(COLUMNS) + 1
     }
 
-    /// The place of a cell on a grid of `n_cols` columns.
-    pub(super) fn place(n_cols: usize, col: usize, row: usize) -> Place {
+    /// The address of a cell on a grid of `n_cols` columns.
+    pub(super) fn address(n_cols: usize, col: usize, row: usize) -> BitAddress {
         let word = (row + 1) * Self::words_per_row(n_cols) + col / COLUMNS;
-        Place((word << 6 | (col % COLUMNS + 1)) as u32)
+        BitAddress((word << 6 | (col % COLUMNS + 1)) as u32)
     }
 
-    /// The visited neighbors of a place as bits in the order of [`STEPS`](crate::map::STEPS).
+    /// The visited neighbors of a cell as bits in the order of [`STEPS`](crate::map::STEPS).
     #[inline]
-    pub(super) fn around(&self, place: Place) -> u8 {
-        let (word, shift) = (place.word(), place.bit() - 1);
+    pub(super) fn around(&self, address: BitAddress) -> u8 {
+        let (word, shift) = (address.word(), address.bit() - 1);
         let three = |word: usize| (self.words[word] >> shift & 7) as usize;
         let below = three(word - self.words_per_row);
         let above = three(word + self.words_per_row);
         AROUND[below | three(word) << 3 | above << 6]
     }
 
-    /// Marks a place as visited.
+    /// Marks a cell as visited.
     #[inline]
-    pub(super) fn mark(&mut self, place: Place) {
-        let (word, bit) = (place.word(), place.bit());
+    pub(super) fn mark(&mut self, address: BitAddress) {
+        let (word, bit) = (address.word(), address.bit());
         self.words[word] |= 1 << bit;
         if bit == 1 {
             self.words[word - 1] |= 1 << (COLUMNS + 1);
@@ -67,10 +67,10 @@ impl Footmarks {
         }
     }
 
-    /// Forgets all marks, of which every one is at one of `places`.
-    pub(super) fn clear(&mut self, places: &[Place]) {
-        for place in places {
-            let word = place.word();
+    /// Clears all marks; `addresses` must hold each of them.
+    pub(super) fn clear(&mut self, addresses: &[BitAddress]) {
+        for address in addresses {
+            let word = address.word();
             self.words[word - 1..word + 2].fill(0);
         }
     }
@@ -102,21 +102,21 @@ mod tests {
     #[test]
     fn sees_its_marks_across_words_and_borders() {
         let (n_cols, n_rows) = (130, 4);
-        let mut marks = Footmarks::new(n_cols, n_rows);
+        let mut marks = VisitedCells::new(n_cols, n_rows);
         let mut visited = vec![false; n_cols * n_rows];
-        let places: Vec<Place> = (0..n_cols * n_rows)
+        let addresses: Vec<BitAddress> = (0..n_cols * n_rows)
             .filter(|i| i * 7 % 5 < 2)
             .map(|i| {
                 visited[i] = true;
-                Footmarks::place(n_cols, i % n_cols, i / n_cols)
+                VisitedCells::address(n_cols, i % n_cols, i / n_cols)
             })
             .collect();
-        for &place in &places {
-            marks.mark(place);
+        for &address in &addresses {
+            marks.mark(address);
         }
         for row in 0..n_rows {
             for col in 0..n_cols {
-                let seen = marks.around(Footmarks::place(n_cols, col, row));
+                let seen = marks.around(VisitedCells::address(n_cols, col, row));
                 for (step, (dx, dy)) in STEPS.into_iter().enumerate() {
                     let (c, r) = (col as i32 + dx, row as i32 + dy);
                     let on_grid =
@@ -130,7 +130,7 @@ mod tests {
                 }
             }
         }
-        marks.clear(&places);
+        marks.clear(&addresses);
         assert!(marks.words.iter().all(|&word| word == 0));
     }
 }

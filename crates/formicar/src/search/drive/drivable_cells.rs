@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 
 /// Padded obstacles, and the moves of goal fields.
 #[derive(Clone, Debug)]
-pub(super) struct GroundCells {
+pub(super) struct DrivableCells {
     pub(super) padded: PaddedGrid,
     /// Moves on obstacles grown by each inflation, made when they are first needed.
     moves: [OnceLock<MoveMasks>; 3],
@@ -17,7 +17,7 @@ pub(super) struct GroundCells {
     radii_cells: [f64; 3],
 }
 
-impl GroundCells {
+impl DrivableCells {
     /// Of a map, for masks of a reach, and obstacles grown by radii.
     pub(super) fn new(obstacles: &ObstacleMap, reach_cells: usize, inflations_m: [f64; 3]) -> Self {
         let resolution_m = obstacles.frame().resolution_m();
@@ -137,7 +137,7 @@ mod tests {
             let values: Vec<i8> = (0..width * height).map(|_| [0, OCCUPIED][draw.below(2)]).collect();
             let radii_m = [radii_m.0, radii_m.1, radii_m.2];
             let mut map = ObstacleMap::new(&grid);
-            let mut cells = GroundCells::new(&map, 70, radii_m);
+            let mut cells = DrivableCells::new(&map, 70, radii_m);
             for inflation in Inflation::ALL {
                 cells.moves(&map, inflation);
             }
@@ -146,7 +146,7 @@ mod tests {
             }
             grid.replace(&region, &values).unwrap();
             let fresh_map = ObstacleMap::new(&grid);
-            let fresh = GroundCells::new(&fresh_map, 70, radii_m);
+            let fresh = DrivableCells::new(&fresh_map, 70, radii_m);
             prop_assert_eq!(&cells.padded, &fresh.padded);
             for inflation in Inflation::ALL {
                 prop_assert_eq!(cells.moves(&map, inflation), fresh.moves(&fresh_map, inflation));

@@ -1,6 +1,6 @@
 //! A map prepared for the motions of a vehicle, once for all queries.
 
-use super::ground_cells::GroundCells;
+use super::drivable_cells::DrivableCells;
 use super::{HybridAstarConfig, Inflation};
 use crate::collision::{Body, ObstacleMap};
 use crate::layers::DriveMasks;
@@ -13,26 +13,26 @@ const STATES_PER_STEP: f64 = 1.5;
 
 /// Obstacles, body, motions and masks: whatever does not depend on the query.
 #[derive(Debug)]
-pub struct DriveGround {
+pub struct DrivableMap {
     obstacles: Arc<ObstacleMap>,
-    parts: GroundParts,
+    parts: DrivableMapParts,
 }
 
-/// A [`DriveGround`] without its map, while that is changed.
+/// A [`DrivableMap`] without its map, while that is changed.
 #[derive(Clone, Debug)]
-pub struct GroundParts {
+pub struct DrivableMapParts {
     motions: Arc<Motions>,
-    cells: GroundCells,
+    cells: DrivableCells,
 }
 
-impl GroundParts {
-    /// The ground on a map that has changed in a rectangle at most. The cost is that of the
+impl DrivableMapParts {
+    /// The same map, prepared, that has changed in a rectangle at most. The cost is that of the
     /// rectangle; masks and the moves of the rest are kept.
-    pub fn on(mut self, obstacles: Arc<ObstacleMap>, changed: Option<&CellRegion>) -> DriveGround {
+    pub fn on(mut self, obstacles: Arc<ObstacleMap>, changed: Option<&CellRegion>) -> DrivableMap {
         if let Some(changed) = changed {
             self.cells.refresh(&obstacles, changed);
         }
-        DriveGround {
+        DrivableMap {
             obstacles,
             parts: self,
         }
@@ -55,7 +55,7 @@ pub(super) struct Lattice {
     pub(super) state_m: f64,
 }
 
-impl DriveGround {
+impl DrivableMap {
     /// Prepares a map for a vehicle; masks and moves are made when they are first needed.
     ///
     /// # Errors
@@ -86,21 +86,21 @@ impl DriveGround {
         )?;
         let reach = coarse.masks.reach_cells().max(fine.masks.reach_cells());
         let body = Body::new(vehicle);
-        let cells = GroundCells::new(&obstacles, reach, inflations_m(&body, vehicle));
+        let cells = DrivableCells::new(&obstacles, reach, inflations_m(&body, vehicle));
         let motions = Arc::new(Motions {
             body,
             coarse,
             fine,
             radius_m,
         });
-        Ok(GroundParts { motions, cells }.on(obstacles, None))
+        Ok(DrivableMapParts { motions, cells }.on(obstacles, None))
     }
 
     /// Lets go of the map, so that it can be changed where it is; what others still hold is
     /// copied.
-    pub fn into_parts(ground: Arc<Self>) -> GroundParts {
-        match Arc::try_unwrap(ground) {
-            Ok(ground) => ground.parts,
+    pub fn into_parts(map: Arc<Self>) -> DrivableMapParts {
+        match Arc::try_unwrap(map) {
+            Ok(map) => map.parts,
             Err(shared) => shared.parts.clone(),
         }
     }

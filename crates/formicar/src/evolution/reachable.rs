@@ -8,13 +8,13 @@ const MAX_TRIES: u32 = 8;
 
 /// Cells that can be reached, with what it takes to draw one of them.
 #[derive(Clone, Debug)]
-pub(super) struct Ground {
+pub(super) struct ReachableCells {
     reachable: BitGrid,
     /// Reachable cells in the rows before each row, and in all.
     n_before: Vec<usize>,
 }
 
-impl Ground {
+impl ReachableCells {
     /// What can be reached from a start that is not blocked.
     pub(super) fn new(blocked: &BitGrid, rule: DiagonalRule, start: Cell) -> Self {
         let components = Components::new(blocked, rule.connectivity());
@@ -102,14 +102,14 @@ mod tests {
         let rows = ["..#..", ".##..", "...#.", "##..#", "..#.."];
         let blocked = OccupancyGrid::from_rows(&rows, 1.0).unwrap().lethal_cells();
         let start = Cell::new(0, 4);
-        let ground = Ground::new(&blocked, DiagonalRule::NoObstacles, start);
+        let reachable = ReachableCells::new(&blocked, DiagonalRule::NoObstacles, start);
         let mut random = Seed(1).stream([0, 0]);
         let place = |cell: Cell| (cell.col, cell.row);
         let drawn: BTreeSet<_> = (0..2_000)
-            .map(|_| place(ground.anywhere(&mut random)))
+            .map(|_| place(reachable.anywhere(&mut random)))
             .collect();
         let near: BTreeSet<_> = (0..2_000)
-            .filter_map(|_| ground.near((2.0, 2.0), 9.0, &mut random))
+            .filter_map(|_| reachable.near((2.0, 2.0), 9.0, &mut random))
             .map(place)
             .collect();
         // Everything but the corners at the lower left and the upper right.

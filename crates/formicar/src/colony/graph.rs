@@ -1,40 +1,39 @@
-//! The ground of a colony: where its ants may go, from where to where.
+//! The graph that ants walk on: cells and the steps between them.
 //!
-//! Cells that ants can reach have numbers of their own, in the order of the cells, and all that is
-//! looked at while ants walk lies by these numbers: a colony in a corridor does not feel how large
-//! its map is.
+//! Cells that ants can reach are numbered in ascending order, and all data that ants read are stored
+//! by these numbers: the size of the map does not slow down a colony in a corridor.
 
 use super::config::{AdjacentGoal, ColonyConfig};
 use super::corridor::Corridor;
-use super::engine::RunError;
-use super::footmarks::Footmarks;
+use super::error::RunError;
 use super::heuristic::LogDesire;
 use super::node::Node;
 use super::problem::ColonyProblem;
+use super::visited::VisitedCells;
 use crate::map::{STEP_COSTS, STEPS};
 use crate::progress::Limits;
 use crate::search::{GoalField, STRAIGHT_COST, SearchError};
 use std::ops::Range;
 
-/// A problem made ready for a configuration: what stays the same over all iterations.
-pub(super) struct Ground {
+/// A problem prepared for a configuration: everything that stays the same over all iterations.
+pub(super) struct StepGraph {
     pub(super) n_cols: usize,
     pub(super) n_rows: usize,
-    /// The cell where ants set out, row by row.
+    /// The index of the start, row by row.
     pub(super) start: usize,
     pub(super) offsets: [isize; 8],
     /// Cells that ants can reach, in ascending order.
     pub(super) cells: Vec<u32>,
     /// The same as ranges.
     pub(super) spans: Vec<Range<usize>>,
-    /// Numbers of the cells of start and goal; that of the goal if it can be reached.
+    /// Numbers of start and goal; none for a goal that cannot be reached.
     pub(super) ends: (usize, Option<usize>),
     /// By number the desire of each step, at most 1.
     pub(super) desire: Vec<[f32; 8]>,
 }
 
-impl Ground {
-    /// The ground with the nodes of its cells, whose weights are not yet set.
+impl StepGraph {
+    /// The graph with the nodes of its cells, whose weights are not yet set.
     pub(super) fn new(
         problem: &ColonyProblem,
         config: &ColonyConfig,
@@ -52,7 +51,7 @@ impl Ground {
             .iter()
             .enumerate()
             .map(|(at, node)| desires(&log, node, at));
-        let ground = Self {
+        let graph = Self {
             n_cols: moves.n_cols(),
             n_rows: moves.n_rows(),
             start,
@@ -65,7 +64,7 @@ impl Ground {
         if let (AdjacentGoal::Taken, Some(goal)) = (config.adjacent_goal, ends.1) {
             take_goal(&mut nodes, goal);
         }
-        Ok((ground, nodes))
+        Ok((graph, nodes))
     }
 
     /// Whether ants can reach the goal.
@@ -74,16 +73,16 @@ impl Ground {
     }
 }
 
-/// Which steps are allowed, cell by cell.
+/// The allowed steps of each cell.
 struct Region<'a> {
     masks: &'a [u8],
     offsets: [isize; 8],
     directions: u8,
-    /// The way to the goal, where a rule needs it.
+    /// The distance to the goal, where a rule needs it.
     to_goal: Option<GoalField>,
-    /// The way to the start from the cells of the corridor, where there is one.
+    /// The distance to the start from the cells of the corridor, if there is one.
     corridor: Option<GoalField>,
-    /// The most that a step in the corridor may lose, in units of the fields.
+    /// The largest detour of a step in the corridor, in units of the fields.
     most_loss: i64,
 }
 
@@ -189,7 +188,7 @@ fn nodes(
         let cell = moves.cell(index as usize);
         let west = i64::from(index) - 1;
         let mut node = Node::new(
-            Footmarks::place(moves.n_cols(), cell.col as usize, cell.row as usize),
+            VisitedCells::address(moves.n_cols(), cell.col as usize, cell.row as usize),
             region.steps(index as usize),
             config.transition.first_class(problem.to_goal(cell)),
         );
@@ -213,8 +212,8 @@ impl<'a> Row<'a> {
         Self { cells, next: 0 }
     }
 
-    /// The numbers of a cell and the two east of it; of those that have none, that of the next.
-    /// From call to call the cell must ascend.
+    /// The numbers of a cell and the two east of it; a cell without a number has that of the next
+    /// one. Cells must ascend from call to call.
     fn three_from(&mut self, west: i64) -> [u32; 3] {
         let lies_before = |&&cell: &&u32| i64::from(cell) < west;
         self.next += self.cells[self.next..]
@@ -230,7 +229,7 @@ impl<'a> Row<'a> {
     }
 }
 
-/// Beside the goal the step to it is the only one.
+/// Leaves only the step to the goal in the cells beside it.
 fn take_goal(nodes: &mut [Node], goal: usize) {
     for step in steps_in(nodes[goal].allowed) {
         let beside = nodes[goal].next(goal, step);
@@ -261,7 +260,7 @@ fn log_desire(
     };
     config.visibility.add_to(&mut desire, problem, cells);
     if let Some(field) = &region.to_goal {
-        // A cell without a way to the goal leads nowhere: the farthest that there is.
+        // A cell without a path to the goal counts as the farthest of all.
         let cost = |&cell: &u32| field.costs()[cell as usize];
         let lengths = cells
             .iter()
@@ -282,10 +281,10 @@ mod tests {
     use crate::colony::presets;
     use crate::map::{BitGrid, Cell, DiagonalRule, MoveMasks};
 
-    fn ground(config: &ColonyConfig, goal: Cell) -> (Ground, Vec<Node>) {
+    fn graph(config: &ColonyConfig, goal: Cell) -> (StepGraph, Vec<Node>) {
         let moves = MoveMasks::new(&BitGrid::new(5, 5), DiagonalRule::Always);
         let problem = ColonyProblem::new(moves, Cell::new(2, 2), goal);
-        Ground::new(&problem, config, &mut Limits::new(&mut (), None, None)).unwrap()
+        StepGraph::new(&problem, config, &mut Limits::new(&mut (), None, None)).unwrap()
     }
 
     #[test]
@@ -302,19 +301,19 @@ mod tests {
             ..presets::ant_system()
         };
         let (up, down) = (Cell::new(4, 4), Cell::new(4, 0));
-        assert_eq!(ground(&config, up).1[12].allowed, 0b0111_0111);
-        assert_eq!(ground(&config, down).1[12].allowed, 0b1101_1101);
+        assert_eq!(graph(&config, up).1[12].allowed, 0b0111_0111);
+        assert_eq!(graph(&config, down).1[12].allowed, 0b1101_1101);
     }
 
     #[test]
     fn beside_the_goal_only_the_step_to_it_is_left() {
-        let (_, nodes) = ground(&presets::ant_system(), Cell::new(3, 3));
+        let (_, nodes) = graph(&presets::ant_system(), Cell::new(3, 3));
         assert_eq!(nodes[12].allowed, 0b0000_0010);
         let weighed = ColonyConfig {
             adjacent_goal: AdjacentGoal::Weighed,
             ..presets::ant_system()
         };
-        assert_eq!(ground(&weighed, Cell::new(3, 3)).1[12].allowed, u8::MAX);
+        assert_eq!(graph(&weighed, Cell::new(3, 3)).1[12].allowed, u8::MAX);
     }
 
     #[test]
@@ -327,14 +326,14 @@ mod tests {
                 }),
                 ..presets::ant_system()
             };
-            ground(&config, Cell::new(4, 2))
+            graph(&config, Cell::new(4, 2))
         };
         assert_eq!(within(1.0).0.cells, [12, 13, 14]);
         // One step aside makes the way of two cells one of 2.83, not of more.
-        let (ground, nodes) = within(1.42);
-        assert_eq!(ground.cells, [8, 12, 13, 14, 18]);
-        assert_eq!(ground.spans, [8..9, 12..15, 18..19]);
-        assert_eq!((ground.ends, nodes[1].allowed), ((1, Some(3)), 0b1000_0011));
+        let (graph, nodes) = within(1.42);
+        assert_eq!(graph.cells, [8, 12, 13, 14, 18]);
+        assert_eq!(graph.spans, [8..9, 12..15, 18..19]);
+        assert_eq!((graph.ends, nodes[1].allowed), ((1, Some(3)), 0b1000_0011));
     }
 
     #[test]
@@ -348,12 +347,12 @@ mod tests {
                 corridor,
                 ..presets::ant_system()
             };
-            let (ground, nodes) =
-                Ground::new(&problem, &config, &mut Limits::new(&mut (), None, None)).unwrap();
+            let (graph, nodes) =
+                StepGraph::new(&problem, &config, &mut Limits::new(&mut (), None, None)).unwrap();
             for (at, node) in nodes.iter().enumerate() {
                 for step in steps_in(node.allowed) {
-                    let to = (ground.cells[at] as usize).wrapping_add_signed(ground.offsets[step]);
-                    assert_eq!(ground.cells[node.next(at, step)] as usize, to);
+                    let to = (graph.cells[at] as usize).wrapping_add_signed(graph.offsets[step]);
+                    assert_eq!(graph.cells[node.next(at, step)] as usize, to);
                 }
             }
         }

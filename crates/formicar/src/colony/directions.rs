@@ -1,0 +1,18 @@
+//! The steps that an ant may take.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Steps that an ant may take.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Directions {
+    /// Straight steps.
+    Four,
+    /// Straight steps and both along one diagonal, the one nearer to the line from start to goal
+    /// (Joshy & Supriya 2016; the choice of the diagonal is a reading).
+    Six,
+    /// All steps.
+    #[default]
+    Eight,
+}
