@@ -1,10 +1,10 @@
-//! A vehicle's footprint made ready for distance queries.
+//! A vehicle's footprint prepared for distance queries.
 
 use super::convex::point_boundary;
 use crate::geometry::{ConvexPolygon, Point2};
 use crate::vehicle::{Motion, Vehicle};
 
-/// A footprint with what bounds it: a box, covering discs, and points that certainly lie in it.
+/// A footprint with its bounds: a box, covering discs, and points that certainly lie in it.
 #[derive(Clone, Debug)]
 pub struct Body {
     /// Corners around the rear axle, counter-clockwise.
@@ -21,7 +21,7 @@ pub struct Body {
     pub(super) inner_radius: f64,
     /// The corner mean.
     pub(super) inner_center: Point2,
-    /// How far cell squares shrink before a touch counts: a point may touch, a body may not.
+    /// Inset of cell squares before a touch counts: a point may touch, a body may not.
     pub(super) inset: f64,
 }
 
@@ -76,7 +76,7 @@ impl Body {
         outer - point_boundary(center, &self.corners)
     }
 
-    /// How far the covering discs stand out of the sides of the bounding box, metres.
+    /// Largest distance by which the covering discs exceed the sides of the bounding box, metres.
     pub fn discs_stand_out_m(&self) -> f64 {
         self.disc_radius - self.half.x.min(self.half.y)
     }
@@ -92,7 +92,7 @@ fn about(corners: &[Point2], center: Point2) -> ConvexPolygon {
     ConvexPolygon::new(&shifted).expect("a footprint stays convex when moved")
 }
 
-/// As many discs as make each cover a piece about half as long as the box is wide.
+/// The number of discs: each covers a piece about half as long as the box is wide.
 fn covering_discs(middle: Point2, half: Point2) -> (Vec<Point2>, f64) {
     const MAX_DISCS: f64 = 16.0;
     let (long, short) = if half.x >= half.y {

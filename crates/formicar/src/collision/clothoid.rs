@@ -1,4 +1,4 @@
-//! The region that a body sweeps along a clothoid, as that of short arcs and a proven deviation.
+//! The region that a body sweeps along a clothoid: that of short arcs with a proven deviation.
 //!
 //! Take a piece of half length h about its middle, with curvature k there and rate c. The heading of
 //! the arc of curvature k through the middle differs by `c t^2 / 2` at the distance t. Turned about

@@ -1,4 +1,4 @@
-//! Where a standing body comes nearest to an obstacle: what a picture rings.
+//! The point of an obstacle nearest to a standing body, which pictures mark.
 
 use super::convex::{Square, edges, point_segment};
 use super::{Body, ObstacleMap};
@@ -58,7 +58,8 @@ impl ObstacleMap {
     }
 }
 
-/// Where polygon and square are apart, a corner of one of them is in a nearest pair.
+/// The nearest point of a square: if polygon and square are apart, a corner of one of them is in a
+/// nearest pair.
 fn square_contact(corners: &[Point2], square: &Square) -> Option<Contact> {
     let clamped = |v: f64, middle: f64| v.clamp(middle - square.half, middle + square.half);
     let from_corners = corners.iter().map(|&p| {

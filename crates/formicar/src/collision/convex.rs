@@ -87,7 +87,7 @@ fn squared_point_boundary(p: Point2, corners: &[Point2]) -> f64 {
     })
 }
 
-/// Depth of the overlap by separating axes: how far one must move to come free; negative where
+/// Depth of the overlap by separating axes: the distance to move one of them free; negative where
 /// an axis separates the two, 0 where they touch.
 pub(super) fn penetration(corners: &[Point2], square: &Square) -> f64 {
     let Square { center: c, half } = *square;

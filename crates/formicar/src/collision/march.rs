@@ -1,4 +1,4 @@
-//! Whether a drive is free, by steps as long as the estimated clearance allows.
+//! Collision checks of drives, by steps as long as the estimated clearance allows.
 
 use super::{Body, Drive, MIN_CLEARANCE_M, ObstacleMap};
 
@@ -6,17 +6,17 @@ use super::{Body, Drive, MIN_CLEARANCE_M, ObstacleMap};
 /// interpolated, exceed the true ones by less than 0.15, and a square reaches from its center to
 /// its corner by 0.21 more than to its side.
 const OVERESTIMATE_CELLS: f64 = 0.4;
-/// Stretches that the estimate cannot settle are checked exactly, so much at once, in half lengths
-/// of the body.
+/// Length of the stretches that are checked exactly where the estimate cannot decide, in half
+/// lengths of the body.
 const EXACT_HALF_LENGTHS: f64 = 0.5;
-/// Clearances beyond this need not be told apart, in half lengths of the body.
+/// Clearances beyond this are not distinguished, in half lengths of the body.
 const ENOUGH_HALF_LENGTHS: f64 = 4.0;
 
 impl ObstacleMap {
-    /// The answer of [`Self::is_free`], faster on long drives that mostly keep some distance.
+    /// Same result as [`Self::is_free`], faster on long drives that mostly keep some distance.
     ///
-    /// Where the estimated clearance of a pose is c, no point of the body can reach anything before
-    /// it has moved by c less the estimate's error; what lies that near on both sides is free.
+    /// If the estimated clearance of a pose is c, no point of the body can reach anything before it
+    /// has moved by c less the estimate's error: the drive is free that far on both sides.
     pub fn is_free_by_steps(&self, body: &Body, drive: &Drive) -> bool {
         let length_m = drive.signed_length_m.abs();
         let half_m = body.half.x.max(body.half.y);

@@ -35,7 +35,7 @@ impl ObstacleMap {
     /// Puts new values into a rectangle of cells, row by row, lowest row first; the rectangle
     /// about all cells that have become lethal or have ceased to be, none where there are none.
     ///
-    /// What is prepared is then the same, to the bit, as of the changed map prepared anew. Cost is
+    /// The result is the same, to the bit, as that of preparing the changed map anew. Cost is
     /// proportional to the cells of the changed rectangle grown by twice the truncation of the
     /// distance transform.
     ///
@@ -88,7 +88,7 @@ impl ObstacleMap {
         &self.distance
     }
 
-    /// A 128-bit hash of what a judge sees: frame and lethal cells.
+    /// A 128-bit hash of frame and lethal cells, all that the judge depends on.
     pub fn hash(&self) -> u128 {
         *self.hash.get_or_init(|| {
             let origin = self.frame.origin();

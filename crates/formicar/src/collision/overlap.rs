@@ -1,4 +1,4 @@
-//! What a standing body overlaps, and how deep: for messages.
+//! The overlap of a standing body with obstacles, for messages.
 
 use super::convex::{Square, penetration};
 use super::sweep::Sweep;
@@ -11,14 +11,14 @@ use crate::map::Cell;
 pub struct Overlap {
     /// The lethal cell that is entered deepest; none where the body leaves the map.
     pub cell: Option<Cell>,
-    /// How deep, metres: what moving out of that square, or back onto the map, takes.
+    /// Depth, metres: the distance to move out of that square, or back onto the map.
     pub depth_m: f64,
     /// Number of lethal cells touched.
     pub n_cells: usize,
 }
 
 impl ObstacleMap {
-    /// What a standing body touches; `None` where it stands free.
+    /// The overlap of a standing body; `None` where it stands free.
     pub fn overlap(&self, body: &Body, pose: Pose2) -> Option<Overlap> {
         if self.is_free(body, &Drive::at(pose)) {
             return None;

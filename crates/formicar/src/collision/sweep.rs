@@ -59,13 +59,14 @@ impl Drive {
         self.curvature_per_m.abs() < 1e-6
     }
 
-    /// How far a body leaves the straight sweep along the start heading, at most.
+    /// Largest distance of a body from the straight sweep along the start heading.
     fn deviation(&self, body: &Body) -> f64 {
         (self.curvature_per_m * self.signed_length_m).abs()
             * (self.signed_length_m.abs() + body.reach_m())
     }
 
-    /// How far body points move from their places halfway, along and across the heading there.
+    /// Largest distances of body points from their positions halfway, along and across the heading
+    /// there.
     fn spread(&self, body: &Body) -> Point2 {
         if self.is_straight() {
             let deviation = self.deviation(body);
@@ -83,8 +84,8 @@ impl Drive {
         )
     }
 
-    /// How many pieces a body's sweep is best cut into: each turns by less than a quarter circle
-    /// and moves by about half of the body.
+    /// Best number of pieces of a body's sweep: each turns by less than a quarter circle and moves by
+    /// about half of the body.
     pub fn n_pieces(&self, body: &Body) -> usize {
         let turn = (self.curvature_per_m * self.signed_length_m).abs();
         let by_length = self.signed_length_m.abs() / body.half.x.max(body.half.y).max(0.5);
@@ -92,7 +93,7 @@ impl Drive {
     }
 }
 
-/// A swept region with its bounds; the exact shape is worked out when a square comes near.
+/// A swept region with its bounds; the exact shape is computed when a square comes near.
 pub(super) struct Sweep<'a> {
     body: &'a Body,
     drive: Drive,
@@ -100,13 +101,13 @@ pub(super) struct Sweep<'a> {
     middle: Point2,
     along: Point2,
     half: Point2,
-    /// How far the centers of the covering discs move from their places halfway.
+    /// Largest distance of the centers of the covering discs from their positions halfway.
     disc_shift: f64,
     shape: OnceCell<Shape>,
 }
 
 enum Shape {
-    /// A convex polygon, and how far the true region may stand out of it.
+    /// A convex polygon, and the distance by which the true region may exceed it.
     Convex(Vec<Point2>, f64),
     Turning(Turning),
 }
@@ -314,8 +315,8 @@ impl Turning {
     }
 }
 
-/// The lesser of a distance and that from a track's inner points to an edge; the track's ends are
-/// the caller's.
+/// The lesser of a distance and that from a track's inner points to an edge; the caller checks the
+/// track's ends.
 fn nearest(track: &Track, (a, b): (Point2, Point2), least: f64) -> f64 {
     least.min(track.beside(a)).min(track.across(a, b))
 }

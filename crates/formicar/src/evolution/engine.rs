@@ -1,4 +1,4 @@
-//! The loop of an evolution: breed, evaluate, remember, tell, stop.
+//! The loop of an evolution: breed, evaluate, remember, report, stop.
 
 use super::config::EvolutionConfig;
 use super::fitness::{Evaluation, Score};
@@ -11,17 +11,16 @@ use crate::map::Cell;
 use crate::numeric::{OutOfRange, Seed};
 use crate::progress::{Event, History, IterationRecord, Limits, PopulationView, Stop, iterate};
 
-/// What a run of a population came to.
+/// The result of an evolution.
 #[derive(Clone, Debug)]
 pub struct EvolutionRun {
-    /// The cheapest polyline that is free of collisions: start, via points, goal. None if there
-    /// was none.
+    /// The cheapest collision-free polyline: start, via points, goal; none if there was none.
     pub best: Option<Vec<Cell>>,
     /// All generations.
     pub history: History,
     /// Why it stopped.
     pub stop: Stop,
-    /// The least length that a polyline of the last generation has inside blocked cells, metres.
+    /// The least length of a polyline of the last generation inside blocked cells, metres.
     pub least_obstructed_m: f64,
 }
 
@@ -61,7 +60,7 @@ pub fn run(
     })
 }
 
-/// Polylines and what they come to.
+/// Polylines and their scores.
 #[derive(Default)]
 struct Population {
     lines: Vec<Vec<Cell>>,
@@ -133,7 +132,7 @@ impl Evolution<'_> {
         (config.n_elite..config.n_individuals).map(child).collect()
     }
 
-    /// The elite stays, and the new ones, evaluated, take the place of the others.
+    /// Keeps the elite, and replaces the others by the new individuals after scoring these.
     fn take_over(&mut self, born: Vec<Vec<Cell>>) -> Result<(), OutOfRange> {
         let old = std::mem::take(&mut self.population);
         for survivor in elite(&old.scores, self.config.n_elite as usize) {

@@ -1,4 +1,4 @@
-//! What an individual comes to: its cost, and how much of it is obstructed.
+//! The score of an individual: its cost and its obstructed length.
 
 use super::config::EvolutionConfig;
 use super::obstruction::blocked_length;
@@ -8,7 +8,7 @@ use crate::map::{Cell, cells_in_sight};
 use crate::numeric::OutOfRange;
 use crate::objective::SteeredLine;
 
-/// What a polyline comes to; the least fitness is the best.
+/// The score of a polyline; the least fitness is the best.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Score {
     /// J of Li 2024 (15).
@@ -71,8 +71,8 @@ impl<'a> Evaluation<'a> {
     }
 }
 
-/// Length of a segment inside blocked cells and one cell more; 0 where the segment is free. So
-/// even one that only touches a corner it may not touch is not free.
+/// Length of a segment inside blocked cells, plus one cell; 0 for a free segment. The extra cell
+/// makes a segment count as obstructed that only touches a forbidden corner.
 pub(super) fn obstruction(problem: &EvolutionProblem, from: Cell, to: Cell) -> f64 {
     let blocked = problem.blocked();
     if cells_in_sight(blocked, problem.rule(), from, to) {

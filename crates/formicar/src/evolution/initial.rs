@@ -39,7 +39,7 @@ fn at_random(
     from_start.chain([problem.goal]).collect()
 }
 
-/// What seeded individuals have in common.
+/// The common data of seeded individuals.
 struct Seeds {
     n_seeded: u32,
     nodes: Vec<Cell>,
@@ -92,8 +92,8 @@ impl Seeds {
     }
 }
 
-/// The inner node without which the least of the polyline is obstructed and, among equals, the
-/// most of its length is left.
+/// The inner node whose removal obstructs the least of the polyline and, among equals, shortens it
+/// the least.
 fn least_needed(problem: &EvolutionProblem, nodes: &[Cell]) -> usize {
     let loss = |i: usize| {
         let (before, node, after) = (nodes[i - 1], nodes[i], nodes[i + 1]);

@@ -1,10 +1,10 @@
 //! A genetic algorithm over via points: polylines that breed (the rivals GA and AGA of Li 2024).
 //!
-//! An individual is a polyline over cells: start, via points, goal. It costs what
-//! [`SteeringCost`](crate::objective::SteeringCost) tells, and a penalty for what of it runs
-//! through blocked cells. Each generation the best stay, and tournaments choose the parents of
-//! the others, which cross over at one point and mutate. `ga` begins at random, `aga` with a share
-//! of its population about the shortest path over cells; all else is the same.
+//! An individual is a polyline over cells: start, via points, goal. Its fitness is
+//! [`SteeringCost`](crate::objective::SteeringCost) plus a penalty for its length inside blocked
+//! cells. In each generation the elite stays, and tournaments choose the parents of the others,
+//! which cross over at one point and mutate. `ga` begins at random, `aga` with a share of its
+//! population around the shortest path over cells; all else is the same.
 
 mod config;
 mod engine;

@@ -1,11 +1,11 @@
-//! How children change: a via point moves, comes, goes, or settles between its neighbors.
+//! Mutations of children: a via point is moved, inserted, deleted, or smoothed.
 
 use super::config::EvolutionConfig;
 use super::reachable::ReachableCells;
 use crate::map::Cell;
 use crate::numeric::RandomStream;
 
-/// Changes a polyline by each mutation that its probability calls for.
+/// Applies each mutation to a polyline with its probability.
 pub(super) fn mutate(
     line: &mut Vec<Cell>,
     config: &EvolutionConfig,
@@ -32,7 +32,7 @@ pub(super) fn mutate(
     }
 }
 
-/// A via point moves; where a few draws find no place, it stays.
+/// Moves a via point; it stays if a few draws find no free cell.
 fn move_one(
     line: &mut [Cell],
     reach_cells: f64,
@@ -45,7 +45,7 @@ fn move_one(
     }
 }
 
-/// A via point comes in beside the middle of a segment, at most half its length off.
+/// Inserts a via point beside the middle of a segment, at most half its length off.
 fn insert(line: &mut Vec<Cell>, reachable: &ReachableCells, random: &mut RandomStream) {
     let after = 1 + random.below(line.len() - 1);
     let (a, b) = (place(line[after - 1]), place(line[after]));
@@ -57,7 +57,7 @@ fn insert(line: &mut Vec<Cell>, reachable: &ReachableCells, random: &mut RandomS
     }
 }
 
-/// A via point goes halfway to the middle between its neighbors, if that can be reached.
+/// Moves a via point halfway to the middle between its neighbors, if that cell is reachable.
 fn smooth(line: &mut [Cell], reachable: &ReachableCells, random: &mut RandomStream) {
     let which = any_via(line, random);
     let [before, here, after] = [which - 1, which, which + 1].map(|i| place(line[i]));
@@ -75,7 +75,7 @@ fn n_via(line: &[Cell]) -> usize {
     line.len() - 2
 }
 
-/// One of the via points, of which there is always one.
+/// A random via point; there is always one.
 fn any_via(line: &[Cell], random: &mut RandomStream) -> usize {
     1 + random.below(n_via(line))
 }

@@ -1,4 +1,4 @@
-//! How much of a straight segment lies in blocked cells.
+//! The length of a straight segment inside blocked cells.
 
 use crate::map::{BitGrid, Cell};
 

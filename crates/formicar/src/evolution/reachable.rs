@@ -3,10 +3,10 @@
 use crate::map::{BitGrid, Cell, Components, DiagonalRule, set_bits};
 use crate::numeric::RandomStream;
 
-/// How often a place near another is drawn before the attempt is given up.
+/// Draws of a cell near a place before the attempt is given up.
 const MAX_TRIES: u32 = 8;
 
-/// Cells that can be reached, with what it takes to draw one of them.
+/// Cells that can be reached, counted by row, so that one can be drawn.
 #[derive(Clone, Debug)]
 pub(super) struct ReachableCells {
     reachable: BitGrid,
@@ -15,7 +15,7 @@ pub(super) struct ReachableCells {
 }
 
 impl ReachableCells {
-    /// What can be reached from a start that is not blocked.
+    /// The cells that can be reached from a start that is not blocked.
     pub(super) fn new(blocked: &BitGrid, rule: DiagonalRule, start: Cell) -> Self {
         let components = Components::new(blocked, rule.connectivity());
         let mut reachable = blocked.complement();
@@ -38,7 +38,7 @@ impl ReachableCells {
         }
     }
 
-    /// Any cell that can be reached, all alike.
+    /// A reachable cell, uniformly drawn.
     pub(super) fn anywhere(&self, random: &mut RandomStream) -> Cell {
         let n_cells = self.n_before.last().copied().unwrap_or_default();
         let place = random.below(n_cells);
@@ -55,8 +55,8 @@ impl ReachableCells {
         Cell::new(0, row as u32)
     }
 
-    /// A cell that can be reached within some cells of a place along either axis; small distances
-    /// are likelier. None where a few draws find none.
+    /// A reachable cell within some cells of a place along either axis; small distances are more
+    /// likely. None if a few draws find none.
     pub(super) fn near(
         &self,
         (col, row): (f64, f64),

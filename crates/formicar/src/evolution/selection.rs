@@ -1,4 +1,4 @@
-//! Who stays, who becomes a parent, and what two parents have together.
+//! Elitism, selection of parents, and crossover.
 
 use super::fitness::Score;
 use crate::map::Cell;
@@ -26,7 +26,7 @@ pub(super) fn tournament(scores: &[Score], size: u32, random: &mut RandomStream)
 /// as the other has.
 pub(super) fn crossover(first: &[Cell], second: &[Cell], random: &mut RandomStream) -> Vec<Cell> {
     let n_via = (first.len() - 2).min(second.len() - 2);
-    // The whole of one parent is no crossover, where it can be helped.
+    // Where possible, the child is not a copy of one parent.
     let n_cuts = n_via - usize::from(first.len() == second.len() && n_via > 1);
     let n_first = 2 + random.below(n_cuts);
     first[..n_first]

@@ -56,7 +56,7 @@ impl Closing {
         self.open.blocked()
     }
 
-    /// Closes a pocket if nobody needs a detour then; what became of it, and the cells closed.
+    /// Closes a pocket if that forces no detour; returns its fate and the closed cells.
     pub(super) fn try_close(&mut self, pocket: &OpenPocket) -> (PocketFate, Vec<Cell>) {
         self.pocket.extend(pocket.cells.iter().copied());
         let rim = self.rim(pocket);
@@ -125,8 +125,8 @@ impl Closing {
         });
     }
 
-    /// Leaves the cells open beside which a diagonal step from rim to rim passes and which the
-    /// diagonal rule needs: else no mouth could be closed but level and upright ones.
+    /// Leaves the cells open that the diagonal rule needs for a diagonal step from rim to rim:
+    /// otherwise only horizontal and vertical mouths could be closed.
     fn spare_corners(&mut self, pocket: &OpenPocket, rim: &[Cell]) {
         let mut spared = Vec::new();
         for &cell in rim {
@@ -144,7 +144,7 @@ impl Closing {
         }
     }
 
-    /// What closing the pocket as tried would do.
+    /// The effect of closing the pocket as tried.
     fn fate(&mut self, pocket: &OpenPocket, rim: &[Cell]) -> PocketFate {
         if !pocket.cells.iter().any(|&cell| self.is_shut(cell)) {
             return PocketFate::WouldHarm;

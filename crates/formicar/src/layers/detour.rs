@@ -1,4 +1,4 @@
-//! Whether anybody would need a detour around a pocket that is closed.
+//! The check that closing a pocket forces no detour.
 
 use crate::map::{BitGrid, Cell, MoveMasks, STEP_COSTS, STEPS, set_bits};
 use std::cmp::Reverse;
@@ -18,8 +18,8 @@ pub(super) struct PocketMoves<'a> {
 #[derive(Debug)]
 pub(super) struct OutOfSteps;
 
-/// Search steps granted to a pocket: so many, and so many per cell of it, within a limit that
-/// keeps labels in 32 bits.
+/// Search steps granted to a pocket: a constant and a number per cell, within a limit that keeps
+/// labels in 32 bits.
 const STEPS_AT_LEAST: usize = 1 << 12;
 const STEPS_PER_CELL: usize = 64;
 const STEPS_AT_MOST: usize = 1 << 18;
@@ -33,8 +33,8 @@ pub(super) struct Detours {
     labels: Vec<u32>,
     reached: Vec<usize>,
     queue: BinaryHeap<Reverse<(u32, usize)>>,
-    /// Queued entries that are of interest still: the source, cells of the pocket, and ways that
-    /// closing forbids.
+    /// Queued entries that may still matter: the source, cells of the pocket, and paths that closing
+    /// forbids.
     n_inner: usize,
     targets: BitGrid,
 }
@@ -50,11 +50,10 @@ impl Detours {
         }
     }
 
-    /// Whether closing makes some way between two cells outside of the pocket longer.
+    /// Whether closing makes some path between two cells outside of the pocket longer.
     ///
-    /// The rim holds all cells outside of the pocket from which a step leads into it. Every way
-    /// that closing touches leaves the outside and comes back to it by cells of the rim, so these
-    /// are all that need a look.
+    /// The rim holds all cells outside of the pocket from which a step leads into it. Every path that
+    /// closing affects leaves the outside and returns to it by cells of the rim, so these suffice.
     pub(super) fn are_needed(
         &mut self,
         moves: &PocketMoves,
@@ -78,8 +77,8 @@ impl Detours {
         answer
     }
 
-    /// Whether some way from a cell to a target becomes longer. It ends when all targets are
-    /// settled, or nothing of interest waits.
+    /// Whether some path from a cell to a target becomes longer. The search ends when all targets are
+    /// settled, or no entry matters any more.
     fn search(
         &mut self,
         moves: &PocketMoves,
@@ -160,11 +159,11 @@ fn is_inner(moves: &PocketMoves, label: u32, cell: Cell) -> bool {
     label == 0 || label % 2 == 1 || moves.pocket.get(cell.col as usize, cell.row as usize)
 }
 
-/// Whether the rim is a digital straight line that stays open: then nobody needs a detour.
+/// Whether the rim is a digital straight line that stays open: then no detour is needed.
 ///
 /// From cell to cell it takes steps of two directions, east and north say. One of the two never
-/// comes twice in a row, and wherever they take turns the diagonal step is allowed. So along the
-/// rim as many steps can be diagonal as between the same two cells on free cells, and no way
+/// comes twice in a row, and wherever they alternate the diagonal step is allowed. So along the rim
+/// as many steps can be diagonal as between the same two cells without obstacles, and no path
 /// through the pocket is shorter.
 fn is_straight(shut: &MoveMasks, rim: &[Cell]) -> bool {
     let mut cells = rim.to_vec();

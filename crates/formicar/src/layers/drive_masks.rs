@@ -1,4 +1,4 @@
-//! What a vehicle's body sweeps on its motion primitives, as masks of bits against the map's.
+//! The cells that a vehicle's body sweeps on its motion primitives, as masks of bits.
 
 use super::bit_mask::{BitMask, ROUNDING};
 use crate::geometry::{ConvexPolygon, Point2, Pose2};
@@ -6,7 +6,7 @@ use crate::map::PaddedGrid;
 use crate::vehicle::{Primitive, PrimitiveSet, Vehicle};
 use std::sync::OnceLock;
 
-/// Places inside a cell that are told apart, along each axis.
+/// Positions inside a cell that are distinguished, along each axis.
 const SUB_CELLS: usize = 4;
 /// Turns longer than this are swept in pieces, radians. A piece leaves the convex hull of its ends
 /// by a thousandth of the corner's radius at most; the hull stands out of the piece, where it fills
@@ -16,11 +16,11 @@ const PIECE_RAD: f64 = std::f64::consts::PI / 36.0;
 /// Masks of the cells that a body may touch on each motion primitive from each heading of a
 /// lattice, for sixteen places of the rear axle inside its cell.
 ///
-/// Where a mask is clear, the motion is free from every position in that sixteenth of a cell; it
-/// may be free though the mask is not clear, by a quarter of a cell each way and what the hulls of
-/// its pieces stand out by. Sampling poses along an arc instead would miss what the swinging front
-/// corner sweeps between them. The masks of a heading are made when they are first asked for. Width
-/// and number of rows are not limited.
+/// If a mask is clear, the motion is free from every position in that sixteenth of a cell. The
+/// reverse does not hold: masks are too large by up to a quarter of a cell each way, and by the
+/// excess of the hulls of their pieces. Sampling poses along an arc instead would miss the area that
+/// the swinging front corner sweeps between them. The masks of a heading are made when they are
+/// first asked for. Width and number of rows are not limited.
 #[derive(Clone, Debug)]
 pub struct DriveMasks {
     lattice: PrimitiveSet,
@@ -34,7 +34,7 @@ pub struct DriveMasks {
 #[derive(Clone, Debug, Default)]
 struct HeadingMasks {
     masks: Vec<Mask>,
-    /// Of all masks, one after the other, so that they lie close together.
+    /// The words of all masks, one after the other, so that they lie close together.
     words: Vec<u64>,
 }
 
@@ -63,7 +63,7 @@ impl DriveMasks {
         &self.lattice
     }
 
-    /// How far a mask reaches from its cell at most, in cells.
+    /// Farthest that a mask reaches from its cell, in cells.
     pub fn reach_cells(&self) -> usize {
         let body = self.corners.iter().fold(0.0, |r, p| p.norm().max(r));
         let primitives = self.lattice.primitives().iter();
@@ -114,7 +114,7 @@ impl DriveMasks {
         })
     }
 
-    /// What the body sweeps from the origin, in cells.
+    /// The region that the body sweeps from the origin, in cells.
     fn swept(&self, primitive: &Primitive, heading_rad: f64) -> Swept {
         let start = Pose2::new(0.0, 0.0, heading_rad);
         let arc = primitive.arc();
@@ -148,7 +148,7 @@ impl DriveMasks {
     }
 }
 
-/// Convex pieces, and how far the swept region may stand out of them; in cells.
+/// Convex pieces, and the distance by which the swept region may exceed them; in cells.
 struct Swept {
     hulls: Vec<ConvexPolygon>,
     sagitta: f64,
@@ -158,7 +158,7 @@ impl HeadingMasks {
     /// Adds the mask of what is swept from places around `at` in the cell (0, 0), corner at the
     /// origin.
     fn add(&mut self, swept: &Swept, at: Point2) {
-        // What a cell must be away from: its square, grown by the places that `at` stands for.
+        // The least distance of a free cell: `at` stands for a square of positions.
         let reach = 0.5 / SUB_CELLS as f64 + swept.sagitta + ROUNDING;
         let mask = BitMask::of(&swept.hulls, at, reach);
         let first = self.words.len() as u32;

@@ -2,8 +2,8 @@
 
 use crate::map::BitGrid;
 
-/// The cells that become impassable when obstacles grow by `n_cells` on all sides, corners
-/// included; obstacles themselves are none of them.
+/// The free cells that become impassable when obstacles grow by `n_cells` on all sides, corners
+/// included.
 ///
 /// Lei 2020, sec. II.B: the free ones among the eight neighbors of an obstacle (the paper's 0.5),
 /// `n_cells` times over. Cost: cells / 64 times the logarithm of `n_cells`.

@@ -1,8 +1,8 @@
-//! Layers: what is laid over a map before ants walk on it.
+//! Layers: cells that are blocked in addition to the obstacles of a map before ants walk on it.
 //!
-//! Obstacle expansion keeps them off obstacles by half the vehicle's width (Lei 2020, sec. II.B),
-//! closing U-shapes keeps them out of dead ends (sec. II.C). Both tell where ants may walk; what
-//! the vehicle's body may touch is decided by the true obstacles alone.
+//! Obstacle expansion keeps ants off obstacles by half the vehicle's width (Lei 2020, sec. II.B),
+//! closing U-shapes keeps them out of dead ends (sec. II.C). Both limit where ants may walk; the
+//! vehicle's body is checked against the true obstacles alone.
 
 mod bit_mask;
 mod closing;
@@ -25,7 +25,7 @@ pub use soft_costs::{SoftCosts, SoftCostsError};
 pub use swept_masks::SweptMasks;
 pub use u_shapes::{Pocket, PocketFate};
 
-/// A map's obstacles, and what was laid over them for a query.
+/// A map's obstacles, and the cells blocked in addition for a query.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layers {
     /// The obstacles of the map.
@@ -36,7 +36,7 @@ pub struct Layers {
     pub closed: BitGrid,
     /// All three: where ants may not walk.
     pub blocked: BitGrid,
-    /// What was looked at in closing U-shapes, the largest first.
+    /// The pockets examined in closing U-shapes, the largest first.
     pub pockets: Vec<Pocket>,
 }
 
@@ -74,8 +74,8 @@ impl Layers {
     /// first in row-major order among equals; none if all within `max_radius_cells` are blocked or
     /// the cell is off the map.
     ///
-    /// Where expansion covers a start or a goal, ants begin and end their way there instead. Cost
-    /// grows with the square of the distance.
+    /// If expansion covers a start or a goal, ants begin or end there instead. Cost grows with the
+    /// square of the distance.
     pub fn nearest_open(&self, cell: Cell, max_radius_cells: u32) -> Option<Cell> {
         nearest_open(&self.blocked, cell, max_radius_cells)
     }

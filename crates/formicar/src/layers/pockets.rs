@@ -1,4 +1,4 @@
-//! Pockets: the free ground between an obstacle and its convex hull.
+//! Pockets: the free cells between an obstacle and its convex hull.
 
 use super::hull::{Span, hull_spans};
 use crate::map::{BitGrid, Cell, Components, Connectivity};
@@ -131,7 +131,7 @@ fn word_at(row: &[u64], col: usize) -> u64 {
 /// First and last column of every obstacle in each of its rows.
 struct Outlines {
     first_rows: Vec<u32>,
-    /// Where the spans of each obstacle begin, with the end of the last.
+    /// Start of the spans of each obstacle, with the end of the last.
     starts: Vec<usize>,
     spans: Vec<Span>,
 }

@@ -1,4 +1,4 @@
-//! Soft costs: ground where a vehicle may drive but rather should not.
+//! Soft costs: areas where a vehicle may drive but preferably does not.
 
 use crate::geometry::Point2;
 use crate::map::{Cell, FREE, GridFrame, OCCUPIED, OccupancyGrid};
@@ -10,10 +10,10 @@ const MAX_WEIGHT: f64 = 1000.0;
 /// The largest graded value of a map: the next is occupied.
 const MAX_GRADED: i8 = OCCUPIED - 1;
 
-/// Values from 0 (indifferent) to 1 (unwanted) on a grid, and what they weigh: driving a metre on
-/// ground of a value costs 1 + weight x value metres.
+/// Values from 0 (indifferent) to 1 (unwanted) on a grid, and their weight: a metre driven on a cell
+/// costs 1 + weight x value metres.
 ///
-/// A preference only: it decides neither whether a path is valid nor whether one is found.
+/// They are a preference only: they affect neither the validity of paths nor whether one is found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SoftCosts {
     frame: GridFrame,
@@ -21,7 +21,7 @@ pub struct SoftCosts {
     weight: f64,
 }
 
-/// What is wrong with soft costs.
+/// Invalid soft costs.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum SoftCostsError {
@@ -36,7 +36,7 @@ pub enum SoftCostsError {
     /// A value outside 0 to 1.
     #[error("the soft cost of cell ({}, {}) is {value}; it must be 0 (indifferent) to 1 (unwanted)", cell.col, cell.row)]
     BadValue {
-        /// Where.
+        /// The cell.
         cell: Cell,
         /// The value found.
         value: f32,
@@ -119,7 +119,7 @@ impl SoftCosts {
         f64::from(self.values[row as usize * self.frame.n_cols() + col as usize])
     }
 
-    /// What a metre costs more at a position in grid coordinates: weight x value.
+    /// Additional cost of a metre at a position in grid coordinates: weight x value.
     pub fn price_at(&self, grid: Point2) -> f64 {
         self.weight * self.value_at(grid)
     }

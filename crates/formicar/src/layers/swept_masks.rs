@@ -1,11 +1,11 @@
-//! The ground that a body sweeps on straight steps, as bits: one mask for each step.
+//! The cells that a body sweeps on straight steps, as bits: one mask for each step.
 
 use super::bit_mask::{BitMask, ROUNDING};
 use crate::geometry::{ConvexPolygon, Point2, Pose2};
 use crate::map::{BitGrid, Cell, shifted};
 use crate::vehicle::Vehicle;
 
-/// For each of some straight steps from cell center to cell center the cells that the body sweeps,
+/// The cells that the body sweeps on each of some straight steps from cell center to cell center,
 /// heading along the step.
 ///
 /// Li 2024 (16-17): the oriented footprint S = R f(theta) with a margin, precomputed per heading,

@@ -1,10 +1,10 @@
-//! U-shapes are closed where that does no harm (Lei 2020, sec. II.C, convex polygon detection).
+//! U-shapes are closed where no distance changes (Lei 2020, sec. II.C, convex polygon detection).
 
 use super::closing::{Closing, OpenPocket};
 use super::pockets::Pockets;
 use crate::map::{BitGrid, Cell, DiagonalRule};
 
-/// The free ground between an obstacle and its convex hull, or a part of it, and what became of it.
+/// The free cells between an obstacle and its convex hull, or a part of them, and their fate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pocket {
     /// Its first cell in row-major order.
@@ -13,26 +13,26 @@ pub struct Pocket {
     pub n_cells: usize,
     /// Number of cells that were closed.
     pub n_closed: usize,
-    /// What became of it, and why.
+    /// Its fate, and the reason.
     pub fate: PocketFate,
 }
 
-/// What became of a pocket, and why.
+/// The fate of a pocket, and the reason.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PocketFate {
     /// Closed, but for cells beside diagonal steps past its mouth.
     Closed,
     /// Open: the start or a goal lies in it.
     HoldsEnd,
-    /// Open: nothing leads in, so that closing it would spare nobody a way.
+    /// Open: no step leads in, so that closing it would save no search.
     NoMouth,
-    /// Open: ways past it would become longer.
+    /// Open: paths past it would become longer.
     WouldHarm,
-    /// Open: whether ways past it would become longer takes too long to find out.
+    /// Open: the check whether paths past it would become longer takes too many steps.
     TooIntricate,
 }
 
-/// Closes pockets, the largest first; the cells closed, and all pockets looked at.
+/// Closes pockets, the largest first; returns the closed cells and all pockets.
 ///
 /// No distance between cells outside of pockets changes. The ends are open cells.
 pub(super) fn close_u_shapes(

@@ -1,11 +1,11 @@
-//! What driving a chain of arcs costs: weights.
+//! The cost of driving a chain of arcs: its weights.
 
 use crate::geometry::Arc;
 use crate::numeric::{OutOfRange, check_range};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The cost of a driven path, in metres of straight forward driving on open ground.
+/// The cost of a driven path, in metres of straight forward driving far from obstacles.
 ///
 /// J = integral of (g + b (R kappa)^2 + n(c)) ds + sum of w R |jump of kappa| + s (changes of
 /// gear), where g is 1 forward and `reverse_factor` in reverse, b is `bend_weight`, R the turning
@@ -79,7 +79,7 @@ impl DriveCost {
         check_range("cost.clearance_wish_m", self.clearance_wish_m, 0.0..=100.0)
     }
 
-    /// What an arc costs on open ground, for a turning radius in metres.
+    /// Cost of an arc far from obstacles, for a turning radius in metres.
     pub fn open_ground_m(&self, arc: Arc, radius_m: f64) -> f64 {
         let gear = if arc.signed_length_m < 0.0 {
             self.reverse_factor
@@ -90,7 +90,7 @@ impl DriveCost {
         arc.length_m() * (gear + self.bend_weight * bend * bend)
     }
 
-    /// What it costs to go over from an arc to the next, for a turning radius in metres.
+    /// Cost of the joint from an arc to the next, for a turning radius in metres.
     pub fn joint_m(&self, before: Arc, after: Arc, radius_m: f64) -> f64 {
         if before.signed_length_m * after.signed_length_m < 0.0 {
             return self.gear_switch_m;
@@ -100,7 +100,7 @@ impl DriveCost {
         self.curvature_change_weight * radius_m * (radius_m * jump)
     }
 
-    /// n(c): what a metre costs more at a clearance; estimates below 0 cost ever more.
+    /// n(c): additional cost of a metre at a clearance; it keeps growing for estimates below 0.
     pub fn nearness(&self, clearance_m: f64) -> f64 {
         if clearance_m >= self.clearance_wish_m || self.clearance_wish_m == 0.0 {
             return 0.0;

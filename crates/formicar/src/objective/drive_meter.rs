@@ -1,18 +1,18 @@
-//! What driving a chain of arcs costs on a map: the integral along it.
+//! The cost of driving a chain of arcs on a map: the integral along it.
 
 use super::DriveCost;
 use crate::collision::{Body, ObstacleMap};
 use crate::geometry::{Arc, Point2, Pose2};
 use std::f64::consts::SQRT_2;
 
-/// What a metre costs more at a position in grid coordinates, at least 0: a preference.
+/// Additional cost of a metre at a position in grid coordinates, at least 0: a preference.
 pub type SoftCost<'a> = &'a (dyn Fn(Point2) -> f64 + Sync);
 
 /// Measures the [`DriveCost`] of arcs for a body on a map, in grid coordinates.
 ///
-/// Costs add up: a path costs what its arcs and its joints cost. Clearance is sampled halfway along
-/// equal steps of each arc, at [`ObstacleMap::clearance_estimate_m`]; steps far from obstacles are
-/// passed over, which changes nothing. Where arcs that continue one motion are one
+/// The cost of a path is the sum over its arcs and its joints. Clearance is sampled halfway along
+/// equal steps of each arc, by [`ObstacleMap::clearance_estimate_m`]; steps far from obstacles are
+/// skipped, which does not change the sum. If arcs of one motion are merged
 /// ([`DriveMeter::merged`]), the cost depends on the path alone and not on how it is cut.
 #[derive(Clone, Copy)]
 pub struct DriveMeter<'a> {
@@ -59,7 +59,7 @@ impl<'a> DriveMeter<'a> {
         }
     }
 
-    /// What a whole path costs.
+    /// Cost of a whole path.
     pub fn path_m(&self, start: Pose2, arcs: &[Arc]) -> f64 {
         let arcs = Self::merged(arcs);
         let mut pose = start;
@@ -86,23 +86,22 @@ impl<'a> DriveMeter<'a> {
         merged
     }
 
-    /// What it costs to go over from an arc to the next.
+    /// Cost of the joint from an arc to the next.
     pub fn joint_m(&self, before: Arc, after: Arc) -> f64 {
         self.cost.joint_m(before, after, self.radius_m)
     }
 
-    /// What an arc costs on open ground: no less anywhere.
+    /// Cost of an arc far from obstacles: a lower bound anywhere.
     pub fn open_ground_m(&self, arc: Arc) -> f64 {
         self.cost.open_ground_m(arc, self.radius_m)
     }
 
-    /// What an arc costs where it lies.
+    /// Cost of an arc in its place.
     pub fn arc_m(&self, start: Pose2, arc: Arc) -> f64 {
         self.open_ground_m(arc) + self.around_m(start, arc, f64::INFINITY)
     }
 
-    /// What its surroundings add to the cost of an arc; once that exceeds a limit, any value above
-    /// the limit.
+    /// Cost of passing near obstacles along an arc; above a limit, any value above the limit.
     pub fn around_m(&self, start: Pose2, arc: Arc, limit_m: f64) -> f64 {
         if !self.cost.sees_obstacles() && self.soft.is_none() {
             return 0.0;
@@ -132,8 +131,8 @@ impl<'a> DriveMeter<'a> {
         sum
     }
 
-    /// What a metre costs more at a place, and how far the body may move before that can change
-    /// from nothing.
+    /// Additional cost of a metre at a place, and the distance that the body may move while it stays
+    /// 0.
     fn rate(&self, walk: &Walk) -> (f64, f64) {
         let wish_m = self.cost.clearance_wish_m;
         let (near, room_m) = if self.cost.sees_obstacles() {

@@ -1,4 +1,4 @@
-//! What a path over cells costs: its length and its turns.
+//! The cost of a path over cells: its length and its turns.
 
 use crate::numeric::{OutOfRange, check_range};
 use schemars::JsonSchema;
@@ -57,7 +57,7 @@ impl PathCost {
     }
 }
 
-/// What a path over cells is made of.
+/// The numbers of steps and turns of a path over cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StepCounts {
     /// Steps to a cell with a common edge.

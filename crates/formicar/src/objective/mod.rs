@@ -1,5 +1,4 @@
-//! What a path costs: over cells, as a polyline that a car will steer along, or as a driven chain
-//! of arcs.
+//! Costs of paths: over cells, as a polyline that a car steers along, or as a driven chain of arcs.
 
 mod drive;
 mod drive_meter;

@@ -1,4 +1,4 @@
-//! What a polyline costs that a car shall steer along (Li 2024, equation 15).
+//! The cost of a polyline that a car steers along (Li 2024, equation 15).
 
 use super::Straightness;
 use crate::geometry::{Point2, angle_difference};
@@ -39,7 +39,7 @@ impl Default for SteeringCost {
     }
 }
 
-/// A polyline with what its cost depends on.
+/// A polyline with all that its cost depends on.
 #[derive(Clone, Copy, Debug)]
 pub struct SteeredLine<'a> {
     /// Its points, metres.
@@ -48,13 +48,13 @@ pub struct SteeredLine<'a> {
     pub start_heading_rad: Option<f64>,
     /// Wheelbase in metres and largest steering in radians.
     pub steering: [f64; 2],
-    /// How the steering gives way.
+    /// The suspension, which limits the steering.
     pub suspension: &'a SuspensionParameters,
     /// `L_ref`, metres, above 0.
     pub reference_m: f64,
 }
 
-/// What a polyline comes to.
+/// The cost of a polyline and its parts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PolylineCost {
     /// J.
@@ -79,7 +79,7 @@ impl SteeringCost {
         check_range("cost.epsilon", self.epsilon, 0.0..=1e6)
     }
 
-    /// What a polyline costs; nothing where it does not move.
+    /// The cost of a polyline; 0 if it does not move.
     ///
     /// # Errors
     /// Parameters of the suspension outside their ranges.
@@ -106,7 +106,7 @@ impl SteeringCost {
     }
 }
 
-/// Adds up what the steps of a polyline cost while they are taken.
+/// Adds up the cost of the steps of a polyline while they are taken.
 #[derive(Clone, Debug)]
 pub struct SteeringMeter {
     wheelbase_m: f64,
@@ -145,7 +145,7 @@ impl SteeringMeter {
         self.limit_rad
     }
 
-    /// How straight the last steps were.
+    /// The straightness of the last steps.
     pub fn straightness(&self) -> &Straightness {
         &self.straightness
     }
@@ -170,7 +170,7 @@ impl SteeringMeter {
         self.sum_squares_rad2 += turn_rad * turn_rad;
     }
 
-    /// What all steps so far come to, with the length that lengths are compared with.
+    /// The cost of all steps so far, given the reference length.
     pub fn total(&self, weights: &SteeringCost, reference_m: f64) -> PolylineCost {
         let n_steps = f64::from(self.n_steps.max(1));
         let mean_turn = self.sum_turns_rad / n_steps;

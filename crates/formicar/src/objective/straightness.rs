@@ -1,4 +1,4 @@
-//! How straight the last steps of a path are.
+//! Straightness of the last steps of a path.
 
 /// G of Li 2024 (19): the mean absolute turn of a path's last three corners, each weighted by the
 /// two steps that it joins; 1 before there are four steps.

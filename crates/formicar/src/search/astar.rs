@@ -19,7 +19,7 @@ pub struct AstarWorkspace {
     query: u64,
 }
 
-/// What cells may wait in: which queue depends on what is known of the keys.
+/// The kinds of queues; the choice depends on the keys.
 #[derive(Clone, Debug)]
 pub(super) struct Queues {
     /// For keys that only grow.
@@ -28,9 +28,9 @@ pub(super) struct Queues {
     pub(super) heap: KeyHeap,
 }
 
-/// What leads a search: the key of a cell by its cost from the start, least first.
+/// The order of a search: the key of a cell by its cost from the start, least first.
 pub(super) trait Guide {
-    /// What cells wait in.
+    /// The queue of open cells.
     type Queue: OpenQueue;
 
     /// The key of a cell reached at a cost.
@@ -183,7 +183,7 @@ pub(super) fn search<G: Guide>(
     Err(Status::NoPath.into())
 }
 
-/// What is the same for every cell of a query.
+/// Everything that is the same for every cell of a query.
 struct Expansion<'a, G> {
     masks: &'a [u8],
     offsets: [isize; 8],

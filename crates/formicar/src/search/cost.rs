@@ -1,4 +1,4 @@
-//! How far the integer costs of steps reach, and which steps are worth their cost.
+//! The range of integer costs of steps, and pruning of steps.
 
 pub use crate::map::{DIAGONAL_COST, STRAIGHT_COST};
 
@@ -35,5 +35,5 @@ pub(super) const ONWARD_STEPS: [u8; 9] = {
     onward
 };
 
-/// In place of a step: none, the cell is a start.
+/// Stands for no step: the cell is a start.
 pub(super) const NO_STEP: usize = 8;

@@ -1,4 +1,4 @@
-//! What a search on a grid returns, and why it may not.
+//! Results and errors of searches on a grid.
 
 use super::cost::{DIAGONAL_COST, MAX_COST, STRAIGHT_COST};
 use crate::map::{Cell, MoveMasks};
@@ -38,7 +38,7 @@ impl GridSearch {
     }
 }
 
-/// Why a search on a grid has no result.
+/// The reason why a search on a grid has no result.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SearchError {
@@ -82,7 +82,7 @@ pub enum SearchError {
 }
 
 impl SearchError {
-    /// The status, where the search ended by itself and not by the caller's fault.
+    /// The status of a search that ended without a path; none for invalid input.
     pub fn status(&self) -> Option<Status> {
         match self {
             Self::Ended { status } => Some(*status),
@@ -101,7 +101,7 @@ impl From<Status> for SearchError {
     }
 }
 
-/// Checks that something may stand on a cell.
+/// Checks that a cell lies on the map and is not blocked.
 pub(crate) fn check_end(
     moves: &MoveMasks,
     end: &'static str,

@@ -1,4 +1,4 @@
-//! A goal field for vehicles: measured only as far as it is asked for, and repaired where it leads
+//! A goal field for vehicles: computed only as far as it is asked for, and repaired where it leads
 //! into places that the vehicle cannot drive.
 
 use super::cost::{STEP_COSTS, STRAIGHT_COST};
@@ -11,17 +11,17 @@ use std::collections::BinaryHeap;
 
 /// Cost to go from cells to the nearest of some goals, along allowed moves and over tolls.
 ///
-/// The front stops where nobody has asked further, so that a query pays for the ground between its
-/// ends. [`Self::add_tolls`] makes cells dearer and repairs only the ways that led over them, as
-/// D* Lite does (Koenig & Likhachev 2002). A field belongs to one query: nothing of a repair
-/// outlives it.
+/// The front spreads only as far as costs are asked for, so that a query pays for the cells between
+/// its ends. [`Self::add_tolls`] makes cells more expensive and repairs only the paths that led over
+/// them, as D* Lite does (Koenig & Likhachev 2002). A field belongs to one query, and its repairs
+/// end with it.
 pub struct GuideField<'a> {
     moves: &'a MoveMasks,
     wave: Wave,
     tolls: Tolls,
 }
 
-/// What cells cost beyond the step from them.
+/// Additional costs of cells beyond the step from them.
 #[derive(Default)]
 struct Tolls {
     /// One per cell, none before the first toll.
@@ -122,7 +122,8 @@ impl<'a> GuideField<'a> {
             }
         }
         rough.extend(self.clear_dearer(doubtful));
-        // On open ground these left neighbors to others, for which those may now be too dear.
+        // Where all moves are free, these left neighbors to other cells, which may now be more
+        // expensive.
         for cell in rough {
             if let Some(cost) = self.wave.cost(cell) {
                 self.wave.put(cell, cost);
@@ -130,7 +131,7 @@ impl<'a> GuideField<'a> {
         }
         self.wave.rewind();
         self.settle(settled.saturating_sub(1), limits)?;
-        // The front may have run out before it came that far again.
+        // The front may have ended before it came that far again.
         self.wave.skip_to(settled);
         Ok(())
     }
@@ -192,7 +193,7 @@ impl<'a> GuideField<'a> {
         offers.min().map(|least| least + self.tolls.toll(cell))
     }
 
-    /// Where the moves of a cell lead, with the cost of the step; moves go both ways.
+    /// The neighbors of a cell by its moves, with the cost of the step; moves are symmetric.
     fn neighbors(&self, cell: usize) -> impl Iterator<Item = (usize, u32)> + use<> {
         let (moves, offsets) = (self.moves.as_slice()[cell], self.moves.offsets());
         let steps = (0..8).filter(move |step| moves >> step & 1 == 1);

@@ -1,11 +1,11 @@
-//! What a search over cells keeps its open cells in.
+//! Queues of open cells.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// Cells that wait, the least key first, the latest among equals.
 pub(super) trait OpenQueue {
-    /// By what cells are ordered.
+    /// The keys by which cells are ordered.
     type Key: Copy;
 
     /// Empties the queue; keys will start at `key`. Memory is kept.

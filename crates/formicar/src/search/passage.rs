@@ -1,4 +1,4 @@
-//! The widest way through: where the narrowest gap between two places is, and how wide.
+//! The widest passage between two places: its narrowest gap and the width there.
 
 use crate::map::{Cell, DistanceField, STEPS};
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 pub struct Passage {
     /// The way, from cell to cell.
     pub cells: Vec<Cell>,
-    /// Where it is narrowest.
+    /// The narrowest place.
     pub narrowest: Cell,
     /// Distance between the centers of that cell and the nearest obstacle cell, in cells; at the
     /// truncation of the distance field, at least that.

@@ -10,14 +10,14 @@ use std::collections::BinaryHeap;
 /// Cells expanded between two checks of room in the buckets.
 const CHUNK: usize = 256;
 
-/// What a front must know of cells besides their moves.
+/// Properties of cells that a wave front depends on, besides their moves.
 pub(super) trait Terrain {
     /// Whether the front may come to a cell at a cost.
     fn keeps(&self, _to: usize, _cost: u32) -> bool {
         true
     }
 
-    /// What a cell costs beyond the step from it.
+    /// Additional cost of a cell beyond the step from it.
     fn toll(&self, _cell: usize) -> u32 {
         0
     }
@@ -36,7 +36,7 @@ pub(super) trait Terrain {
 pub(super) struct Wave {
     /// One more than the cost, 0 where a cell was not reached: fresh memory is not touched.
     costs: Vec<u32>,
-    /// Where the next bucket begins: cheaper cells are settled.
+    /// Least cost of the next bucket; cheaper cells are settled.
     floor: u32,
     current: Level,
     later: [Level; 2],

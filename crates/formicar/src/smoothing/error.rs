@@ -1,11 +1,11 @@
-//! Why a polyline does not become a drivable curve.
+//! Errors of smoothing.
 
 use super::config::Corners;
 use crate::numeric::OutOfRange;
 use crate::scenario::Endpoint;
 use thiserror::Error;
 
-/// What keeps a polyline from becoming drivable, or what is wrong with the question.
+/// The reason why a polyline cannot be made drivable, or an invalid request.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum SmoothingError {
@@ -18,17 +18,17 @@ pub enum SmoothingError {
     /// A corner that cannot be rounded.
     #[error("corner {number} at ({x:.2}, {y:.2}) m turns by {turn_deg:.0} deg: {problem}{}", no_curve(*corners))]
     Corner {
-        /// Which corner, counted from 1.
+        /// Number of the corner, from 1.
         number: usize,
         /// World coordinate, metres.
         x: f64,
         /// World coordinate, metres.
         y: f64,
-        /// How far the polyline turns there, degrees, positive left.
+        /// Turn of the polyline there, degrees, positive left.
         turn_deg: f64,
-        /// Why no 2-turning fits.
+        /// The reason why no 2-turning fits.
         problem: CornerProblem,
-        /// What was tried.
+        /// The kinds of curves that were tried.
         corners: Corners,
     },
     /// A straight piece that the body cannot drive.
@@ -38,25 +38,25 @@ pub enum SmoothingError {
         x: f64,
         /// World coordinate, metres.
         y: f64,
-        /// What was tried.
+        /// The kinds of curves that were tried.
         corners: Corners,
     },
-    /// A heading that no free curve joins to the way.
+    /// A heading that no free curve joins to the polyline.
     #[error(
         "no free curve joins the {which}'s heading to the way within {reach_m:.1} m of it; hint: leave the heading free, or raise reach_radii"
     )]
     Heading {
         /// Start or goal.
         which: Endpoint,
-        /// How much of the way was tried, metres.
+        /// Length of the polyline that was tried, metres.
         reach_m: f64,
     },
-    /// Start and goal are one place, where the body does not fit.
+    /// Start and goal are the same place, where the body does not fit.
     #[error("the body does not fit at the start, which is the goal")]
     NoRoom,
 }
 
-/// Why no 2-turning rounds a corner.
+/// The reason why no 2-turning rounds a corner.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum CornerProblem {
@@ -65,17 +65,17 @@ pub enum CornerProblem {
         "2-turning needs at least {needs_m:.3} m of the segment {side} it, which has {has_m:.3} m"
     )]
     TooShort {
-        /// What the member that comes nearest to fitting takes, metres.
+        /// Length that the member nearest to fitting takes, metres.
         needs_m: f64,
         /// Length of the segment, metres.
         has_m: f64,
         /// "before" or "after".
         side: &'static str,
     },
-    /// Every member that the segments have room for collides.
+    /// Every member that fits the segments collides.
     #[error("every 2-turning touches obstacles, by {depth_m:.3} m where it nearly fits")]
     Touches {
-        /// Deepest overlap of the member that seems freest, metres.
+        /// Deepest overlap of the member that looks freest, metres.
         depth_m: f64,
     },
     /// The turn at the corner before ends too late.
@@ -83,9 +83,9 @@ pub enum CornerProblem {
         "2-turning needs at least {needs_m:.3} m of the segment before it, of which the turn before leaves {has_m:.3} m"
     )]
     Crowded {
-        /// What the shortest free member takes, metres.
+        /// Length that the shortest free member takes, metres.
         needs_m: f64,
-        /// What is left of the segment, metres.
+        /// Length that is left of the segment, metres.
         has_m: f64,
     },
     /// The path goes back the way it came.

@@ -1,10 +1,9 @@
 //! From a grid path to a curve that a car can drive.
 //!
-//! Redundant nodes go, corners are rounded by 2-turning (Lei & Zheng 2020, sec. III), and
-//! Dubins or Reeds-Shepp curves join the headings at both ends. Every piece is checked with the
-//! swept body; what cannot be passed is named. A B-spline over the nodes (Li 2024) is the other way
-//! to a smooth path, and looks at nothing. A path that can be driven, wherever it comes from, is
-//! made cheaper by [`Improver`].
+//! [`smooth`] drops redundant nodes, rounds corners by 2-turning (Lei & Zheng 2020, sec. III), and
+//! joins the headings at both ends by Dubins or Reeds-Shepp curves. Every piece is checked with the
+//! swept body; a failure names the first place that cannot be passed. The alternative is a B-spline
+//! over the nodes (Li 2024), which ignores obstacles. [`Improver`] makes any drivable path cheaper.
 
 mod chain;
 mod config;

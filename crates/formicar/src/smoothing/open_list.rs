@@ -1,12 +1,12 @@
-//! Pieces that wait to be checked, the least estimate first, the latest among equals.
+//! The open list of smoothing: the least estimate first, the latest among equals.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// Something to look at, with its cost.
+/// An item on the list, with its cost.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entry<T> {
-    /// Of the whole of which it is a part, at least.
+    /// Lower bound of the cost of a whole path through the item.
     estimate: f64,
     pub(super) cost: f64,
     pub(super) item: T,
@@ -28,7 +28,7 @@ impl<T> PartialOrd for Entry<T> {
 }
 
 impl<T> Ord for Entry<T> {
-    /// The heap hands out the greatest: that of the least estimate is.
+    /// The heap returns the greatest entry, which is the one of the least estimate.
     fn cmp(&self, other: &Self) -> Ordering {
         let by_estimate = other.estimate.total_cmp(&self.estimate);
         by_estimate.then(self.number.cmp(&other.number))
@@ -51,8 +51,8 @@ impl<T> Default for OpenList<T> {
 }
 
 impl<T> OpenList<T> {
-    /// Puts something on the list that costs as much so far, with at least `remaining` to come.
-    /// What leads nowhere is left out.
+    /// Adds an item with its cost so far and a lower bound of the cost that remains. Items with an
+    /// infinite bound are left out.
     pub(super) fn push(&mut self, [cost, remaining]: [f64; 2], item: T) {
         let estimate = cost + remaining;
         if estimate.is_finite() {

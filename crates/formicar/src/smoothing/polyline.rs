@@ -5,9 +5,9 @@ use crate::geometry::{Point2, Pose2, angle_difference};
 use crate::map::Cell;
 use crate::scenario::Request;
 
-/// Nodes nearer to each other than this are one, metres.
+/// Nodes nearer to each other than this are the same, metres.
 const SAME_PLACE_M: f64 = 1e-9;
-/// Turns below this are none, radians.
+/// Turns below this do not count, radians.
 const STRAIGHT_RAD: f64 = 1e-9;
 
 /// A straight piece of the polyline, grid coordinates.
@@ -19,7 +19,7 @@ pub(super) struct Leg {
     pub(super) s_m: f64,
 }
 
-/// Legs from start to goal; none where both are one place.
+/// Legs from start to goal; empty where both are the same place.
 #[derive(Clone, Debug)]
 pub(super) struct Polyline {
     pub(super) points: Vec<Point2>,
@@ -27,7 +27,7 @@ pub(super) struct Polyline {
 }
 
 impl Polyline {
-    /// The polyline through points without those that repeat, or at which it goes straight on.
+    /// The polyline through points, without repeated points and points on a straight line.
     pub(super) fn new(points: impl IntoIterator<Item = Point2>) -> Self {
         let mut kept: Vec<Point2> = Vec::new();
         for point in points {

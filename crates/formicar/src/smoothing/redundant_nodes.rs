@@ -1,4 +1,4 @@
-//! Nodes of a grid path that nothing needs (Lei & Zheng 2020, sec. III.A).
+//! Removal of redundant nodes from a grid path (Lei & Zheng 2020, sec. III.A).
 
 use crate::map::{BitGrid, Cell, DiagonalRule, cells_in_sight};
 use crate::path::GridPath;
@@ -31,7 +31,7 @@ impl RedundantNodes {
 
 /// The nodes of a path without those that are redundant.
 ///
-/// A node goes where the path goes straight on, and where its two neighbors see each other: the
+/// A node is dropped where the path goes straight on, and where its two neighbors see each other: the
 /// segment between their centers, Lei 2020 (4) and (5), touches no blocked cell, corner contact
 /// judged by the diagonal rule. Passes from start to goal are repeated until nothing changes, so
 /// that a second call changes nothing. The path never grows longer. Of a path whose steps the rule

@@ -1,4 +1,4 @@
-//! The one entry: a request and the nodes of a grid path in, a drivable curve out.
+//! The entry point of smoothing: from the nodes of a grid path to a drivable curve.
 
 use super::chain::{Piece, cheapest};
 use super::config::{Corners, SmoothingConfig};
@@ -18,21 +18,20 @@ use crate::path::CurvePath;
 use crate::scenario::{GoalHeading, Request, StartHeading};
 use crate::vehicle::Motion;
 
-/// Of the headings by which a request samples a free one, every so manieth is tried.
+/// Every third of the headings with which a request samples a free heading is tried.
 const FREE_HEADING_STRIDE: usize = 3;
 
 /// Rounds the corners of a grid path's nodes for a vehicle, and joins the ends' headings.
 ///
-/// Every corner gets the 2-turning of least deviation that the swept body has room for, all
-/// together such that neighbors leave each other room; Dubins curves (Reeds-Shepp where reverse
-/// is allowed) lead from an exact start heading onto the way and from the way to an exact goal
-/// heading. Where start or goal do not lie in the cells of the first and last node, the way begins
-/// and ends at their positions all the same. For a point vehicle the way is the polyline. With
-/// [`Corners::BSpline`] the way is a spline that nobody has checked.
+/// Every corner gets the 2-turning of least deviation that is free of collisions, chosen jointly so
+/// that neighboring corners leave each other room. Dubins curves (Reeds-Shepp where reverse is
+/// allowed) lead from an exact start heading onto the polyline, and from the polyline to an exact
+/// goal heading. The path begins and ends at the requested positions, even where they lie outside
+/// of the cells of the first and the last node. For a point vehicle the path is the polyline. With
+/// [`Corners::BSpline`] it is a spline that is not checked for collisions.
 ///
 /// # Errors
-/// Parameters out of range, no nodes, and the first place of the way that cannot be passed, with
-/// its reason.
+/// Parameters out of range, no nodes, or the first place that cannot be passed, with the reason.
 pub fn smooth(
     problem: &SmoothingProblem,
     config: &SmoothingConfig,
@@ -80,8 +79,8 @@ pub fn smooth(
     Ok(assembled(problem, request, &map, &pieces))
 }
 
-/// The poses at the ends, grid coordinates. Where the heading is free, 2-turning alone begins and
-/// ends as the polyline does.
+/// The poses at the ends, grid coordinates; none for a free heading with 2-turning alone, which
+/// begins and ends as the polyline does.
 fn ends(problem: &SmoothingProblem, request: &Request, corners: Corners, body: &Body) -> Ends {
     let frame = problem.obstacles.frame();
     let start_is_free = request.start_heading == StartHeading::Any;
@@ -104,7 +103,7 @@ fn ends(problem: &SmoothingProblem, request: &Request, corners: Corners, body: &
     }
 }
 
-/// Start and goal in one place with a free heading: the path that does not move.
+/// The path that does not move, for a start and a goal in one place with a free heading.
 fn standing(task: &RoundingTask, request: &Request) -> Result<Piece, SmoothingError> {
     let frame = task.obstacles.frame();
     let held = if task.ends.start_is_free && !task.ends.goal_is_free {

@@ -22,7 +22,7 @@ pub struct CornerRecord {
     pub place: Point2,
     /// Turn of the polyline, radians, positive left.
     pub turn_rad: f64,
-    /// How the corner was made drivable.
+    /// The way in which the corner was made drivable.
     pub rounding: Rounding,
 }
 

@@ -9,9 +9,9 @@ use crate::path::{CurvePath, CurveSegment, Direction};
 use crate::scenario::{GoalHeading, Request, StartHeading};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// How far the arcs of a path may lie from its spline, metres.
+/// Largest distance of the arcs of a path from its spline, metres.
 const TOLERANCE_M: f64 = 1e-3;
-/// Arcs shorter than this are rounding, metres.
+/// Arcs shorter than this come from rounding, metres.
 const NEGLIGIBLE_M: f64 = 1e-9;
 
 /// The path along the B-spline of third order over way points, grid coordinates.
@@ -74,8 +74,7 @@ fn with_headings(problem: &SmoothingProblem, request: &Request, points: &[Point2
     controls
 }
 
-/// The points with others between them, so that none is farther than `spacing_m` from the next;
-/// the points alone where that is 0.
+/// Inserts points so that none is farther than `spacing_m` from the next; none where that is 0.
 fn with_spacing(points: &[Point2], spacing_m: f64) -> Vec<Point2> {
     if spacing_m <= 0.0 {
         return points.to_vec();

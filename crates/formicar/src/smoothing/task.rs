@@ -9,7 +9,7 @@ use crate::scenario::MotionMode;
 /// Cost of a line or an arc along which the margin is not kept, turning radii.
 const TIGHT_RADII: f64 = 1.0;
 
-/// The poses from which curves lead onto the way, and those to which they lead from it.
+/// The poses from which curves lead onto the polyline, and those to which they lead from it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Ends {
     pub(super) starts: Vec<Pose2>,
@@ -111,7 +111,7 @@ impl RoundingTask<'_> {
         }
     }
 
-    /// Cost of a curve between two gears; a gear of 0 is none.
+    /// Cost of a curve between two gears; 0 stands for no gear.
     pub(super) fn word_cost(&self, curve: &Curve, [before, after]: [f64; 2]) -> f64 {
         let mut gear = before;
         let mut cost = 0.0;

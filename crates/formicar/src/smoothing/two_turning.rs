@@ -3,7 +3,7 @@
 use crate::geometry::{Arc, Point2};
 use std::f64::consts::PI;
 
-/// Which of the two turns comes first.
+/// The order of the two turns.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TurnOrder {
     /// The collision-avoidance turn by alpha, then the resuming turn by beta, as in the paper.
@@ -23,7 +23,7 @@ pub enum TurnOrder {
 /// after it (or, swinging out first, the one before it).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwoTurning {
-    /// Which turn comes first.
+    /// The order of the turns.
     pub order: TurnOrder,
     /// The corner's angle, positive left, in (-pi, pi) without 0.
     pub turn_rad: f64,
@@ -43,8 +43,8 @@ impl TwoTurning {
     /// The member with a resuming turn of `beta_rad` at a corner that turns by `turn_rad`
     /// (positive left).
     ///
-    /// None where the path goes straight on or straight back, where the radius is not positive and
-    /// finite, or beta not between 0 and [`Self::max_beta_rad`].
+    /// There is none if the path goes straight on or straight back, if the radius is not positive
+    /// and finite, or if beta is not between 0 and [`Self::max_beta_rad`].
     pub fn new(turn_rad: f64, radius_m: f64, order: TurnOrder, beta_rad: f64) -> Option<Self> {
         let g = turn_rad.abs();
         let is_corner = g > 0.0 && g < PI && radius_m > 0.0 && radius_m.is_finite();

@@ -1,4 +1,4 @@
-//! What a prepared map holds of its cells for searches that drive, made anew where cells change.
+//! Data by cell of a prepared map, which are updated where cells change.
 
 use super::Inflation;
 use crate::collision::ObstacleMap;
@@ -13,25 +13,25 @@ pub(super) struct DrivableCells {
     pub(super) padded: PaddedGrid,
     /// Moves on obstacles grown by each inflation, made when they are first needed.
     moves: [OnceLock<MoveMasks>; 3],
-    /// By how much obstacles are grown from center to center, cells.
+    /// Radii of inflation from cell center to cell center, cells.
     radii_cells: [f64; 3],
 }
 
 impl DrivableCells {
-    /// Of a map, for masks of a reach, and obstacles grown by radii.
+    /// Prepares a map for masks of a reach, and for inflation by radii.
     pub(super) fn new(obstacles: &ObstacleMap, reach_cells: usize, inflations_m: [f64; 3]) -> Self {
         let resolution_m = obstacles.frame().resolution_m();
         Self {
             padded: PaddedGrid::new(obstacles.lethal(), reach_cells),
             moves: Default::default(),
-            // Only what blocks a position wherever it lies in its cell: from the cell's center to
-            // the position half a diagonal, from the obstacle's center to its side half a cell.
+            // A cell is blocked only if every position in it is: half a diagonal from the cell's
+            // center to the position, half a cell from the obstacle's center to its side.
             radii_cells: inflations_m
                 .map(|radius_m| radius_m / resolution_m - (FRAC_1_SQRT_2 - 0.5)),
         }
     }
 
-    /// The moves of an inflation, and how many cells of the map a cell of theirs is wide.
+    /// The moves of an inflation, and the width of their cells in map cells.
     pub(super) fn moves(&self, obstacles: &ObstacleMap, inflation: Inflation) -> (&MoveMasks, u32) {
         let stride = self.stride(inflation);
         let moves = self.moves[inflation as usize].get_or_init(|| {
@@ -71,9 +71,9 @@ impl DrivableCells {
     }
 }
 
-/// How many cells of the map a cell of the field may be wide: an odd number, so that both have
-/// their centers in one place. Half a diagonal step is then shorter than the radius by which
-/// obstacles were grown, so that no step between free cells leads over one.
+/// Largest width of a cell of the field in map cells: an odd number, so that their centers coincide.
+/// Half a diagonal step is then shorter than the radius of inflation, so that no step between free
+/// cells leads over an obstacle.
 fn stride(radius_cells: f64) -> u32 {
     let most = (radius_cells / CELLS_PER_STRIDE) as u32;
     (most.max(1) - 1) / 2 * 2 + 1

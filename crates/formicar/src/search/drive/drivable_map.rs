@@ -11,14 +11,14 @@ use std::sync::Arc;
 /// A step leads out of its state: it is longer than the state's diagonal.
 const STATES_PER_STEP: f64 = 1.5;
 
-/// Obstacles, body, motions and masks: whatever does not depend on the query.
+/// Obstacles, body, motions and masks: everything that does not depend on the query.
 #[derive(Debug)]
 pub struct DrivableMap {
     obstacles: Arc<ObstacleMap>,
     parts: DrivableMapParts,
 }
 
-/// A [`DrivableMap`] without its map, while that is changed.
+/// A [`DrivableMap`] without its obstacles, while these are changed.
 #[derive(Clone, Debug)]
 pub struct DrivableMapParts {
     motions: Arc<Motions>,
@@ -39,7 +39,7 @@ impl DrivableMapParts {
     }
 }
 
-/// What depends on vehicle and resolution, and not on the cells of the map.
+/// Everything that depends on vehicle and resolution, and not on the cells of the map.
 #[derive(Debug)]
 struct Motions {
     body: Body,
@@ -48,7 +48,7 @@ struct Motions {
     radius_m: f64,
 }
 
-/// The motions of a vehicle, what they sweep, and the size of the states they lead to.
+/// The motions of a vehicle, their swept masks, and the size of a state.
 #[derive(Debug)]
 pub(super) struct Lattice {
     pub(super) masks: DriveMasks,
@@ -96,7 +96,7 @@ impl DrivableMap {
         Ok(DrivableMapParts { motions, cells }.on(obstacles, None))
     }
 
-    /// Lets go of the map, so that it can be changed where it is; what others still hold is
+    /// Releases the obstacles, so that they can be changed in place; parts still in use elsewhere are
     /// copied.
     pub fn into_parts(map: Arc<Self>) -> DrivableMapParts {
         match Arc::try_unwrap(map) {
@@ -132,17 +132,16 @@ impl DrivableMap {
         &self.parts.motions.fine
     }
 
-    /// Moves between the cells of a field that are free when obstacles are grown by one of the
-    /// radii, and how many cells of the map a cell of the field is wide.
+    /// The moves of a goal field on inflated obstacles, and the width of its cells in map cells.
     pub(super) fn moves(&self, inflation: Inflation) -> (&MoveMasks, u32) {
         self.parts.cells.moves(&self.obstacles, inflation)
     }
 }
 
-/// Radii by which to grow obstacles for the goal field, most first: halfway to what the body
-/// sweeps in its tightest turn, which leads through gaps that can mostly be driven; the body's
-/// inner disc, which leads through gaps that are wide enough to go straight; and what the rear
-/// axle can never get nearer than, which keeps nothing out wrongly.
+/// Radii of inflation for the goal field, largest first: halfway to the width that the body sweeps
+/// in its tightest turn, which leaves gaps that can mostly be driven; the body's inner disc, which
+/// leaves gaps that are wide enough to drive straight; and the least distance of the rear axle from
+/// any obstacle, which closes no gap wrongly.
 fn inflations_m(body: &Body, vehicle: &Vehicle) -> [f64; 3] {
     let sure = vehicle.footprint().inradius().max(0.0);
     let wide = body.inner_radius_m().max(sure);

@@ -1,4 +1,4 @@
-//! What is still to be driven, estimated from two sides; the larger counts.
+//! The heuristic of searches that drive: the larger of two estimates.
 
 use super::{DriveProblem, Inflation, one_way};
 use crate::geometry::{Point2, Pose2, dubins, reeds_shepp};
@@ -19,14 +19,14 @@ pub struct Guide<'a> {
 
 /// Eight directions are up to 8.2 % longer than the straight way: cos(pi / 8).
 const OCTILE_SHRINK: f64 = 0.923_879_532_511_286_7;
-/// Up to how many goal poses curves are measured to; beyond, the goal field alone guides.
+/// Most goal poses to which curves are measured; with more, the goal field alone guides.
 const MAX_CURVE_GOALS: usize = 4;
 /// Curves count within this many turning radii of the goal; farther off the field says more.
 const CURVE_REACH_RADII: f64 = 12.0;
 
 impl<'a> Guide<'a> {
-    /// The guide on obstacles grown by a radius; none where that covers all goals or
-    /// the start, or parts them.
+    /// The guide on inflated obstacles; none where these cover the start or all goals, or separate
+    /// them.
     ///
     /// # Errors
     /// Deadline or cancel.
@@ -85,8 +85,8 @@ impl<'a> Guide<'a> {
         ))))
     }
 
-    /// Length of the shortest curve to a goal; 0 where the way along the field is too long for it
-    /// to matter.
+    /// Length of the shortest curve to a goal; 0 where the distance along the field is too long for
+    /// it to matter.
     pub fn along_curve_m(&self, problem: &DriveProblem, pose: Pose2, along_field_m: f64) -> f64 {
         let goals = problem.goals();
         let radius_m = problem.map().radius_m();
@@ -101,8 +101,8 @@ impl<'a> Guide<'a> {
         if shortest.is_finite() { shortest } else { 0.0 }
     }
 
-    /// The way along the goal field, interpolated between the centers of the four cells around,
-    /// since a field of steps would reward weaving from one cell's edge to the next.
+    /// The distance along the goal field, interpolated between the centers of the four cells around:
+    /// a field of steps would reward weaving from one cell's edge to the next.
     ///
     /// # Errors
     /// Deadline or cancel.
@@ -121,8 +121,8 @@ impl<'a> Guide<'a> {
         Ok(Some(self.interpolated_m(pose.position(), here)))
     }
 
-    /// The way along the field where it is settled, beyond that at least as much; none where no
-    /// goal is reached.
+    /// The distance along the field where it is settled, otherwise a lower bound; none where no goal
+    /// is reached.
     pub fn estimate_m(&self, problem: &DriveProblem, position: Point2) -> Option<f64> {
         let cell = self.cell(problem, position)?;
         match self.field.cost(cell) {
@@ -134,7 +134,7 @@ impl<'a> Guide<'a> {
         }
     }
 
-    /// Makes cells dearer: `tolls` is told the size of a cell and the numbers of columns and rows.
+    /// Adds tolls to cells. `tolls` gets the size of a cell and the numbers of columns and rows.
     ///
     /// # Errors
     /// Deadline or cancel.
@@ -169,7 +169,8 @@ impl<'a> Guide<'a> {
         }
     }
 
-    /// Between the four cell centers around a pose; `here` stands in for what is not settled.
+    /// Interpolates between the four cell centers around a position; `here` replaces costs that are
+    /// not settled.
     fn interpolated_m(&self, position: Point2, here: u32) -> f64 {
         let (x, y) = (
             position.x / self.resolution_m - 0.5,

@@ -1,5 +1,5 @@
-//! What planners that drive from pose to pose share: a map prepared for a vehicle's motions, the
-//! moves and costs of a query, and the guide to its goal.
+//! Shared by planners that drive from pose to pose: a map prepared for a vehicle's motions, the
+//! motions and costs of a query, and the guide to its goal.
 
 mod config;
 mod drivable_cells;

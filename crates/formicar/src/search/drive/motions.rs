@@ -1,4 +1,4 @@
-//! The motions of a query: where they lead, and which are free.
+//! The motions of a query: their ends and their collision checks.
 
 use super::{DriveProblem, Guide, State};
 use crate::collision::Drive;
@@ -27,8 +27,8 @@ impl DriveProblem<'_> {
         }
     }
 
-    /// What is to go at least from the best place one motion farther on in the same gear, with
-    /// that motion; none where every such place certainly hits something or leads nowhere.
+    /// Least estimated cost of another motion in the same gear and the path from there; none where
+    /// every such motion certainly hits something or leads nowhere.
     pub fn look_ahead(&self, guide: &Guide, state: &State) -> Option<f64> {
         let primitives = self.primitives();
         let half = primitives.primitives().len() / 2;
@@ -54,7 +54,7 @@ impl DriveProblem<'_> {
         least
     }
 
-    /// Length of a motion, about, metres.
+    /// Approximate length of a motion, metres.
     pub fn step_m(&self) -> f64 {
         self.primitives().primitives()[0].length_m
     }

@@ -1,4 +1,4 @@
-//! What a goal field, which knows no headings, must learn of a vehicle without reverse.
+//! Tolls that teach a goal field, which has no headings, about a vehicle without reverse.
 
 use super::DriveProblem;
 use crate::geometry::{Point2, Pose2};
@@ -7,18 +7,17 @@ use crate::scenario::MotionMode;
 use crate::search::STRAIGHT_COST;
 use std::collections::BTreeSet;
 
-/// From an end to each end of the bar beside it, turning radii: so far off, the vehicle can turn
-/// around on either side.
+/// Half the width of a bar, turning radii: beyond it the vehicle can turn around on either side.
 const HALF_RADII: f64 = 3.0;
-/// What it costs to cross a cell of a bar, turning radii; a bar is two or three cells deep.
+/// Toll of a cell of a bar, turning radii; a bar is two or three cells deep.
 const TOLL_RADII: f64 = 5.0;
 /// Depths at which a bar is marked, cells from the end's pose: no diagonal step slips through, and
 /// the end's own cell stays free.
 const DEPTHS_CELLS: [f64; 4] = [1.5, 2.0, 2.5, 3.0];
 
-/// Tolls on a bar across the front of each goal and the back of the start, where their headings are
-/// fixed and reverse is not allowed: without them the field leads to a goal from where it cannot be
-/// entered, and back past a start where it cannot be left.
+/// Tolls on a bar across the front of each goal and the back of the start, where headings are fixed
+/// and reverse is not allowed. Without them the field leads to a goal from the wrong side, or out of
+/// a start backwards.
 pub(super) fn tolls(
     problem: &DriveProblem,
     resolution_m: f64,

@@ -1,11 +1,11 @@
-//! What motions cost.
+//! Costs of motions.
 
 use super::{DriveProblem, Side};
 use crate::collision::MIN_CLEARANCE_M;
 use crate::geometry::{Arc, Point2};
 
 impl DriveProblem<'_> {
-    /// Cost of a motion after another, given the factor of the ground at its end.
+    /// Cost of a motion after another, given the cost factor at its end.
     pub(super) fn cost(&self, before: Arc, arc: Arc, dearness: f64) -> f64 {
         let switches = before.signed_length_m * arc.signed_length_m < 0.0;
         let switching = if switches {
@@ -17,7 +17,7 @@ impl DriveProblem<'_> {
         switching + arc.length_m() * factor * dearness
     }
 
-    /// Factor of the ground on lengths: by how near obstacles are, and by the soft costs.
+    /// Cost factor on lengths at a position: by clearance and by soft costs.
     pub(super) fn dearness(&self, position: Point2, along: Point2) -> f64 {
         let wish_m = self.config.clearance_wish_m.max(2.0 * MIN_CLEARANCE_M);
         let (obstacles, body) = (self.map.obstacles(), self.map.body());

@@ -1,4 +1,4 @@
-//! One query from pose to pose: from where, to where, on which lattice.
+//! One query from pose to pose: its ends and its lattice.
 
 use super::drivable_map::Lattice;
 use super::{DrivableMap, Driven, HybridAstarConfig, Side, State};
@@ -9,7 +9,7 @@ use crate::map::Cell;
 use crate::scenario::{GoalTolerance, MotionMode, Request};
 use crate::vehicle::{Gears, PrimitiveSet};
 
-/// A request on a ground, in grid coordinates.
+/// A request on a prepared map, in grid coordinates.
 #[derive(Clone)]
 pub struct DriveProblem<'a> {
     pub(super) map: &'a DrivableMap,
@@ -57,7 +57,7 @@ impl<'a> DriveProblem<'a> {
         }
     }
 
-    /// The same query with a preference for some ground over other, on the frame of the map.
+    /// The same query with soft costs on the frame of the map.
     #[must_use]
     pub fn with_soft_costs(self, soft_costs: Option<&'a SoftCosts>) -> Self {
         Self { soft_costs, ..self }
@@ -82,8 +82,8 @@ impl<'a> DriveProblem<'a> {
         }
     }
 
-    /// The same query from the other end: where only one end is tight, its surroundings are best
-    /// searched from within. None where reverse is not allowed.
+    /// The same query from the other end: the surroundings of a tight end are best searched from
+    /// within. None where reverse is not allowed.
     pub fn swapped(&self) -> Option<Self> {
         let swapped = |problem: Self| Self {
             side: match problem.side {
@@ -124,7 +124,7 @@ impl<'a> DriveProblem<'a> {
         self.map
     }
 
-    /// What motions cost.
+    /// Parameters, costs of motions among them.
     pub fn config(&self) -> &'a HybridAstarConfig {
         self.config
     }
@@ -134,12 +134,12 @@ impl<'a> DriveProblem<'a> {
         self.lattice.masks.lattice()
     }
 
-    /// Where to begin.
+    /// The start poses.
     pub fn starts(&self) -> &[Pose2] {
         &self.starts
     }
 
-    /// Where to end.
+    /// The goal poses.
     pub fn goals(&self) -> &[Pose2] {
         &self.goals
     }
@@ -152,12 +152,12 @@ impl<'a> DriveProblem<'a> {
         }
     }
 
-    /// The end that the search goes out from.
+    /// The end from which the search starts.
     pub fn side(&self) -> Side {
         self.side
     }
 
-    /// Which gears may be used.
+    /// The gears that may be used.
     pub fn motion(&self) -> MotionMode {
         self.motion
     }

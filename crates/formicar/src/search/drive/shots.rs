@@ -1,18 +1,18 @@
-//! Curves straight to the goal: the analytic expansion.
+//! Analytic expansion: curves straight to the goal.
 
 use super::{DriveProblem, Guide, State};
 use crate::geometry::{Arc, Curve, Point2, Pose2, dubins, reeds_shepp};
 use crate::scenario::MotionMode;
 
-/// How many words are tried per goal, shortest first.
+/// Words tried per goal, shortest first.
 const MAX_WORDS: usize = 6;
-/// Of how many goals the words are counted; of more, the nearest get most of them.
+/// Most goals for which words are granted; with more goals, the nearest get most of the words.
 const MAX_COUNTED_GOALS: usize = 4;
 
-/// Curves are tried always near the goal, seldom far from it: once in so many turning radii to go
-/// a state more,
+/// Curves are tried the less often the farther the goal: the interval grows by one state per this
+/// many turning radii to go.
 const RADII_PER_SHOT: f64 = 3.0;
-/// and at least once in so many states.
+/// Largest interval between two tries, states.
 const MOST_STATES_PER_SHOT: u64 = 32;
 
 impl DriveProblem<'_> {

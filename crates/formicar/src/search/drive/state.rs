@@ -1,27 +1,27 @@
-//! Words of searches that drive: where a vehicle is, from which end, on what guide, and its path.
+//! Basic types of searches that drive: state, side, inflation and path.
 
 use crate::geometry::{Arc, Pose2};
 
 /// A driven path: a start pose and the arcs from there, in grid coordinates.
 pub type Driven = (Pose2, Vec<Arc>);
 
-/// By how much obstacles are grown for the goal field.
+/// The radius by which obstacles are inflated for the goal field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Inflation {
     /// Halfway to what the body sweeps in its tightest turn.
     Turning,
     /// The body's inner disc.
     Wide,
-    /// What the rear axle can never be nearer than.
+    /// The least distance of the rear axle from any obstacle.
     Sure,
 }
 
 impl Inflation {
-    /// All of them, most growth first.
+    /// All of them, the largest first.
     pub const ALL: [Self; 3] = [Self::Turning, Self::Wide, Self::Sure];
 }
 
-/// From which end a search goes out.
+/// The end from which a search starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// From the start.
@@ -30,7 +30,7 @@ pub enum Side {
     Goal,
 }
 
-/// Where a vehicle is on the lattice, and how it came.
+/// A vehicle's pose on the lattice, and the motion that led there.
 #[derive(Clone, Copy, Debug)]
 pub struct State {
     /// The pose.
@@ -46,7 +46,7 @@ pub struct State {
 }
 
 impl State {
-    /// Where a vehicle stands that came by an arc, whatever its heading.
+    /// A start at any pose, reached by an arc.
     pub fn start(pose: Pose2, arc: Arc) -> Self {
         Self {
             pose,

@@ -1,9 +1,9 @@
-//! What could be done next, cheapest estimate first.
+//! The open list of hybrid A*: the least estimate first.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// What can follow a node.
+/// A candidate that follows a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Step {
     /// A motion onto another state, by its number; not yet checked.

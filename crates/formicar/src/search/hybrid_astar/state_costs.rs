@@ -1,4 +1,4 @@
-//! What is known of each lattice state: the least cost at which it was reached.
+//! The least cost at which each lattice state was reached.
 
 /// Open addressing with linear probing; keys are below 2^64 - 1.
 pub(super) struct StateCosts {
@@ -47,7 +47,7 @@ impl StateCosts {
         self.slots[place] = (key, cost);
     }
 
-    /// Where a key is, or would go.
+    /// The slot of a key, or the free slot for it.
     fn place(&self, key: u64) -> usize {
         let mask = self.slots.len() - 1;
         // Fibonacci hashing: the upper bits of a product with 2^64 / golden ratio.

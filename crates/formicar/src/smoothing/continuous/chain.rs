@@ -1,5 +1,5 @@
-//! A chain of clothoids between two poses, as numbers that a solver may change: curvatures at its
-//! nodes, and lengths.
+//! A chain of clothoids between two poses. The variables of its solver are curvatures at nodes, and
+//! lengths.
 
 use crate::geometry::{Point2, Pose2};
 
@@ -28,7 +28,7 @@ pub(super) struct Chain {
     pub(super) ramps: Vec<Ramp>,
 }
 
-/// How the last pose changes with a number.
+/// The derivative of the last pose by a variable.
 pub(super) type Effect = [f64; 3];
 
 impl Chain {
@@ -58,7 +58,8 @@ impl Chain {
         std::iter::once(start).chain(ramps).collect()
     }
 
-    /// How the last of `poses` changes with the curvature of each node and the length of each ramp.
+    /// The derivatives of the last of `poses` by the curvature of each node and the length of each
+    /// ramp.
     pub(super) fn effects(&self, poses: &[Pose2]) -> Vec<Effect> {
         let mut effects = vec![[0.0; 3]; self.nodes.len() + self.ramps.len()];
         let end = poses[poses.len() - 1].position();

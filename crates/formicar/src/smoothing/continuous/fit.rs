@@ -8,7 +8,7 @@
 use super::chain::{Chain, Effect};
 use crate::geometry::{Pose2, angle_difference};
 
-/// What a chain must keep to.
+/// The limits of a chain.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
     pub(super) max_curvature_per_m: f64,
@@ -64,7 +64,7 @@ fn miss(end: Pose2, target: Pose2) -> Effect {
     ]
 }
 
-/// By how much the chain breaks the limits, each in its own unit; at most 0 where it keeps them.
+/// The excess over each limit, in the limit's unit; at most 0 where the chain keeps it.
 fn excess(chain: &Chain, limits: Limits) -> f64 {
     let bends = chain.nodes.iter().map(|n| n.curvature_per_m.abs());
     let bend = bends.fold(0.0, f64::max) - limits.max_curvature_per_m;

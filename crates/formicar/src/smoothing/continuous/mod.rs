@@ -1,12 +1,12 @@
 //! From a chain of lines and arcs to one whose curvature is continuous.
 //!
-//! The path is cut at stations: the middles of its segments, and where the vehicle stands. Between
-//! two stations, transitions take the place of joints, and the least change of curvatures and
-//! lengths is sought with which the chain meets the second station exactly (`fit`). A part that
-//! cannot be done, or touches something, is tried with more of the path before it. Where the
-//! vehicle stands its wheels may turn, so that curvatures are free there, and a part that reaches
-//! over a change of gear may move it. Where the shortest part to a station comes near obstacles,
-//! longer ones are looked at too, and the cheapest is taken.
+//! The path is cut at stations: the middles of its segments, and the places where the vehicle
+//! stands. Between two stations, transitions replace the joints, and a solver looks for the least
+//! change of curvatures and lengths with which the chain meets the second station exactly (`fit`).
+//! If that fails, or the part touches an obstacle, the part begins at an earlier station. Where the
+//! vehicle stands, its wheels may turn: curvatures are free there, and a part that reaches over a
+//! change of gear may move it. If the shortest part to a station comes near obstacles, longer parts
+//! are tried too, and the cheapest is taken.
 
 mod chain;
 mod fit;
@@ -37,11 +37,11 @@ pub struct Continuity<'a> {
     pub vehicle: &'a Vehicle,
     /// Fastest change of the curvature per driven metre, 1/m^2, above 0.
     pub max_rate_per_m2: f64,
-    /// What tells cheap parts from dear ones.
+    /// The cost of driving, by which parts are compared.
     pub cost: &'a DriveCost,
 }
 
-/// Where a path cannot be made continuous.
+/// The place beyond which a path cannot be made continuous.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error(
     "no transitions of curvature that change by at most {max_rate_per_m2:.4} 1/m^2 fit beyond ({x:.3}, {y:.3}), s = {s_m:.3} m{}",
@@ -65,9 +65,9 @@ pub struct NoTransition {
 struct PartialPath {
     from: usize,
     chain: Chain,
-    /// What its surroundings add to the cost of this part, metres.
+    /// Cost of passing near obstacles on this part, metres.
     nearness_m: f64,
-    /// What the path costs up to here, metres.
+    /// Cost of the path up to its end, metres.
     cost_m: f64,
 }
 
@@ -126,7 +126,7 @@ impl Continuity<'_> {
         fit(&mut chain, target, self.limits()).then_some(chain)
     }
 
-    /// What the surroundings of a chain add to its cost, metres.
+    /// Cost of passing near obstacles along a chain, metres.
     fn nearness_m(&self, body: &Body, chain: &Chain, start: Pose2) -> f64 {
         let radius_m = self.vehicle.min_turning_radius_m();
         let meter = DriveMeter::new(self.obstacles, body, self.cost, radius_m);

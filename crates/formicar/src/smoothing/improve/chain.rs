@@ -8,7 +8,7 @@ use crate::geometry::{Arc, Pose2};
 pub(super) struct Piece {
     pub(super) start: Pose2,
     pub(super) arc: Arc,
-    /// What it costs where it lies, metres, joints not counted.
+    /// Cost in its place, metres, without joints.
     pub(super) cost_m: f64,
     /// Driven length before it, metres.
     pub(super) from_m: f64,

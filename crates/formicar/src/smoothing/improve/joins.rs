@@ -16,7 +16,7 @@ pub(super) enum Gears {
 
 /// Sides on which the first and the last arc may turn.
 const SIDES: [[f64; 2]; 4] = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
-/// How often an arc is as tight as the vehicle can turn.
+/// Share of arcs of the least turning radius.
 const TIGHTEST_SHARE: f64 = 0.35;
 /// The widest arcs that are drawn, as a share of the distance.
 const WIDEST_DISTANCES: f64 = 3.0;

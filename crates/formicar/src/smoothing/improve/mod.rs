@@ -1,11 +1,10 @@
-//! A driven path made cheaper, step by step and never worse: any free chain of arcs becomes another
-//! between the same poses.
+//! Improvement of driven paths: a free chain of arcs becomes a cheaper one between the same poses.
 //!
-//! Local search: two places of the path are joined by another curve, a place is moved and joined
-//! anew on both sides, a change of gear is replaced with its surroundings. Curves are Dubins and
-//! Reeds-Shepp words, arcs of two different radii along a common tangent, and rounded corners.
-//! Most curves cost more than what they would replace and are gone after a few operations; what
-//! is left is priced along its way, and what still gains is checked exactly.
+//! Local search with three operators: connect two places of the path by another curve, move a place
+//! and connect it anew on both sides, replace a change of gear with its surroundings. Curves are
+//! Dubins and Reeds-Shepp words, arcs of two different radii along a common tangent, and rounded
+//! corners. Lower bounds reject most curves after a few operations; the cost of the others is
+//! integrated along their path, and those that still gain are checked exactly.
 
 mod chain;
 mod config;
@@ -26,7 +25,7 @@ use chain::Chain;
 use operators::Attempt;
 use task::ImproveTask;
 
-/// What a path is improved for; grid coordinates.
+/// The map, the vehicle and the cost that a path is improved for; grid coordinates.
 #[derive(Clone, Copy)]
 pub struct ImproveProblem<'a> {
     /// The map.
@@ -37,9 +36,9 @@ pub struct ImproveProblem<'a> {
     pub radius_m: f64,
     /// Gears that may be used.
     pub motion: MotionMode,
-    /// What driving costs.
+    /// Cost of driving.
     pub cost: &'a DriveCost,
-    /// What positions cost besides.
+    /// Additional cost of positions.
     pub soft: Option<SoftCost<'a>>,
 }
 
@@ -48,13 +47,14 @@ pub struct ImproveProblem<'a> {
 pub struct Improved {
     /// Its arcs, from the start pose that was given.
     pub arcs: Vec<Arc>,
-    /// What it cost before, metres.
+    /// Cost before, metres.
     pub start_cost_m: f64,
-    /// What it costs now, metres.
+    /// Cost now, metres.
     pub cost_m: f64,
     /// Tries made; each is a step of the limits.
     pub n_tries: u64,
-    /// What ended it early: budget, deadline or cancel; nothing where tries ceased to gain.
+    /// The limit that ended the search early: budget, deadline or cancel; none if tries ceased to
+    /// gain.
     pub ended: Option<Status>,
 }
 
@@ -69,7 +69,7 @@ const TRIES_PER_LOOK: u64 = 16;
 const TRIES_PER_ROUND: u64 = 64;
 /// The least gain that is worth reporting, relative to the cost.
 const REPORT_GAIN: f64 = 1e-4;
-/// How far a chain of arcs may end from its goal by rounding, metres and radians.
+/// Largest distance of the end of a chain from its goal by rounding, metres and radians.
 const END_TOLERANCE: f64 = 1e-9;
 /// Numbers of pieces that a systematic pass replaces at once, in this order.
 const SPANS: [usize; 6] = [32, 16, 8, 4, 3, 2];
@@ -99,9 +99,9 @@ impl<'a> Improver<'a> {
         }
     }
 
-    /// Makes a free chain of arcs cheaper until tries cease to gain or a limit ends it. Every chain
-    /// that `on_improved` sees is free, cheaper than the one before, and ends where the first one
-    /// ends, within 1e-9.
+    /// Makes a free chain of arcs cheaper until tries cease to gain or a limit ends the search. Every
+    /// chain that `on_improved` receives is free, is cheaper than the one before, and ends where the
+    /// first one ends, within 1e-9.
     pub fn improve(
         &self,
         (start, arcs): (Pose2, &[Arc]),
@@ -207,7 +207,7 @@ impl LocalSearch<'_, '_, '_> {
         (f64::from(self.task.config.stall_tries_per_radius) * radii) as u64
     }
 
-    /// Replaces every few neighboring pieces, many at once first, as long as that gains.
+    /// Replaces neighboring pieces, many at once first, as long as that gains.
     fn polish(&mut self) -> Result<(), Status> {
         for _ in 0..self.task.config.polish_passes {
             let before_m = self.chain.cost_m;

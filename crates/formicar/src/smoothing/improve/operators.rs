@@ -1,5 +1,5 @@
-//! The ways to change a path: join two of its places anew, move a place, do without a change of
-//! gear.
+//! The operators of local search: connect two places of the path anew, move a place, remove a
+//! change of gear.
 
 use super::chain::{Chain, PathPosition, Piece};
 use super::joins::{Gap, Gears, log_uniform};
@@ -12,13 +12,13 @@ use crate::numeric::RandomStream;
 const SHORTEST_RADII: f64 = 0.5;
 /// Longest stretches on either side of a place that is moved, turning radii.
 const SHIFT_REACH_RADII: f64 = 12.0;
-/// How far places are moved, turning radii, least and most.
+/// Least and largest shift of a place, turning radii.
 const SHIFT_RADII: [f64; 2] = [0.005, 1.0];
-/// How much they are turned, radians, least and most.
+/// Least and largest turn of a place, radians.
 const TURN_RAD: [f64; 2] = [0.003, 0.5];
-/// How far from a change of gear it is replaced, turning radii, at most.
+/// Largest distance from a change of gear at which its surroundings are replaced, turning radii.
 const CUSP_REACH_RADII: f64 = 10.0;
-/// How often an end of a stretch is put onto a joint.
+/// Share of the ends of stretches that are moved onto a joint.
 const JOINT_SHARE: f64 = 0.5;
 /// Both gears are tried in a stretch without reverse if it is shorter than this, turning radii.
 const BOTH_GEARS_RADII: f64 = 8.0;
@@ -33,7 +33,7 @@ pub(super) struct Attempt<'a> {
 }
 
 impl Attempt<'_> {
-    /// Joins two random places; whether the path became cheaper.
+    /// Connects two random places; returns whether the path became cheaper.
     pub(super) fn shortcut(&mut self) -> bool {
         let length_m = self.chain.length_m;
         let shortest_m = SHORTEST_RADII * self.task.radius_m;
@@ -51,7 +51,8 @@ impl Attempt<'_> {
         self.join(ends_m, false)
     }
 
-    /// Joins places on both sides of a change of gear, or of several; whether that was cheaper.
+    /// Connects places on both sides of one or several changes of gear; returns whether the path
+    /// became cheaper.
     pub(super) fn without_cusp(&mut self, cusps_m: &[f64]) -> bool {
         let first = self.stream.below(cusps_m.len());
         let last = (first + self.stream.below(3)).min(cusps_m.len() - 1);
@@ -64,7 +65,7 @@ impl Attempt<'_> {
         )
     }
 
-    /// Joins two places, given as driven lengths; whether the path became cheaper.
+    /// Connects two places, given as driven lengths; returns whether the path became cheaper.
     pub(super) fn join(&mut self, [from_m, to_m]: [f64; 2], any_gears: bool) -> bool {
         if to_m <= from_m {
             return false;
@@ -92,7 +93,7 @@ impl Attempt<'_> {
         self.take_best(window, routes)
     }
 
-    /// Moves a random place sideways, turns it, and joins it anew on both sides; whether the path
+    /// Shifts and turns a random place, and connects it anew on both sides; returns whether the path
     /// became cheaper.
     pub(super) fn shift(&mut self) -> bool {
         let (length_m, radius_m) = (self.chain.length_m, self.task.radius_m);
@@ -140,7 +141,7 @@ impl Attempt<'_> {
         self.take_best(window, routes)
     }
 
-    /// A pose beside that of a place: toward more room where it is tight, else to any side.
+    /// A pose beside that of a place, on the side with more clearance or on a random side.
     fn moved(&mut self, position: PathPosition) -> Pose2 {
         let pose = self.chain.pose(position);
         let [least, most] = SHIFT_RADII.map(|radii| radii * self.task.radius_m);
@@ -165,7 +166,7 @@ impl Attempt<'_> {
         }
     }
 
-    /// The cheapest curves over a gap on open ground.
+    /// The cheapest curves over a gap if there were no obstacles.
     fn best_curves(&mut self, gap: Gap, gears: &[Gears]) -> Vec<Curve> {
         let mut curves: Vec<(f64, Curve)> = Vec::new();
         for &gears in gears {
@@ -225,7 +226,7 @@ impl Attempt<'_> {
         gears
     }
 
-    /// Replaces a stretch by the first of the cheapest routes that holds what it promises.
+    /// Replaces a stretch by the first of the cheapest routes that is free and gains.
     fn take_best(&mut self, mut window: Window, mut routes: Vec<Route>) -> bool {
         routes.sort_by(|a, b| a.bound_m.total_cmp(&b.bound_m));
         let task = self.task;

@@ -1,4 +1,4 @@
-//! What a path is improved for: what is free, and what driving costs.
+//! Collision checks and costs of the improvement.
 
 use super::ImproveConfig;
 use crate::collision::{Body, Drive, ObstacleMap};
@@ -28,8 +28,8 @@ impl ImproveTask<'_> {
         self.obstacles.is_free_by_steps(self.body, &drive)
     }
 
-    /// Whether the body certainly hits something at one of some places along an arc, about as far
-    /// apart as the body is long: a look at one cell for each.
+    /// Whether the body certainly hits something at one of several places along an arc, about a body
+    /// length apart; each takes a look at one cell.
     pub(super) fn certainly_hits(&self, start: Pose2, arc: Arc) -> bool {
         let n_places = (arc.length_m() / self.body.reach_m()).ceil().max(1.0);
         (1..=n_places as usize).any(|i| {

@@ -1,10 +1,10 @@
-//! A stretch of the path that may be replaced, and what its replacement would cost.
+//! A stretch of the path that may be replaced, and the cost of its replacement.
 
 use super::chain::{Chain, PathPosition, Piece};
 use super::task::ImproveTask;
 use crate::geometry::{Arc, Curve, Pose2};
 
-/// What a replacement must gain, metres: more than rounding.
+/// Least gain of a replacement, metres: more than rounding.
 const LEAST_GAIN_M: f64 = 1e-6;
 
 /// A stretch between two places, with the rests of the pieces that it cuts.
@@ -12,10 +12,10 @@ pub(super) struct Window {
     /// The pieces that it touches.
     first: usize,
     last: usize,
-    /// What stays of the first piece and of the last one.
+    /// The remaining parts of the first and the last piece.
     head: Option<Draft>,
     tail: Option<Draft>,
-    /// What the touched pieces cost with the joints between them.
+    /// Cost of the touched pieces with the joints between them.
     old_m: f64,
 }
 
@@ -110,7 +110,7 @@ impl Window {
         (bound_m < self.old_m - LEAST_GAIN_M).then_some(route)
     }
 
-    /// Prices what stays of the cut pieces, once for all routes.
+    /// Computes the cost of the remaining parts, once for all routes.
     pub(super) fn settle(&mut self, task: &ImproveTask) {
         for rest in [&mut self.head, &mut self.tail].into_iter().flatten() {
             if rest.known_m.is_none() {
@@ -119,7 +119,7 @@ impl Window {
         }
     }
 
-    /// Replaces the stretch if that is cheaper and free; whether it was.
+    /// Replaces the stretch if the route is cheaper and free; returns whether it did.
     pub(super) fn replace(&self, task: &ImproveTask, chain: &mut Chain, route: &Route) -> bool {
         let mut drafts = self.drafts(route);
         if drafts.is_empty() || !self.price(task, &mut drafts) {
@@ -139,7 +139,7 @@ impl Window {
         is_free
     }
 
-    /// The pieces instead of the touched ones, those that continue one motion made one.
+    /// The pieces that replace the touched ones; pieces of one motion are merged.
     fn drafts(&self, route: &Route) -> Vec<Draft> {
         let inner = route.placed().map(|(start, arc)| Draft {
             start,
@@ -159,7 +159,7 @@ impl Window {
         drafts
     }
 
-    /// Works out what the drafts cost; whether that is less than before.
+    /// Computes the cost of the drafts; returns whether it is less than before.
     fn price(&self, task: &ImproveTask, drafts: &mut [Draft]) -> bool {
         let joints = drafts.windows(2);
         let joints = joints.map(|w| task.meter.joint_m(w[0].arc, w[1].arc));
@@ -179,7 +179,7 @@ impl Window {
 }
 
 impl Draft {
-    /// What stays of a piece before a place on it.
+    /// The part of a piece before a place on it.
     fn before(piece: &Piece, driven_m: f64) -> Option<Self> {
         let whole = driven_m == piece.arc.length_m();
         (driven_m > 0.0).then(|| Self {
@@ -189,7 +189,7 @@ impl Draft {
         })
     }
 
-    /// What stays of a piece after a place on it.
+    /// The part of a piece after a place on it.
     fn after(piece: &Piece, driven_m: f64) -> Option<Self> {
         let whole = driven_m == 0.0;
         let arc = piece.arc_after(driven_m);

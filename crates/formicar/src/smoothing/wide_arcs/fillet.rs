@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 const TIGHTER: f64 = 0.75;
 /// The widest arc, turning radii.
 const MAX_RADII: f64 = 16.0;
-/// Turns below this are none, radians.
+/// Turns below this do not count, radians.
 const STRAIGHT_RAD: f64 = 1e-9;
 /// The sharpest corner, radians.
 const MAX_TURN_RAD: f64 = 0.75 * PI;
@@ -53,7 +53,7 @@ impl Fillet {
         let radius_m = if wanted_m >= least_m {
             wanted_m
         } else if widest_m >= least_m && wanted_m > TIGHTER * least_m {
-            // The tightest of all is tried once, too.
+            // The tightest arc is tried once, too.
             least_m
         } else {
             return None;

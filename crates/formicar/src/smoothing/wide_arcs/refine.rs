@@ -1,23 +1,23 @@
-//! A chain of legs and arcs made cheaper by moving and leaving out corners.
+//! Local search over a chain of legs and arcs: corners are moved, merged and dropped.
 
 use super::fillet::{Fillet, Rounded};
 use crate::geometry::{Arc, Point2, Pose2, angle_difference};
 use crate::smoothing::task::RoundingTask;
 use std::ops::RangeInclusive;
 
-/// How far corners are moved, in turning radii, ever less.
+/// Steps by which corners are moved, turning radii, largest first.
 const MOVES_RADII: [f64; 4] = [0.6, 0.3, 0.12, 0.05];
-/// Passes over all corners with each.
+/// Most passes over all corners with each step.
 const MAX_PASSES: usize = 4;
-/// What a change must gain, metres.
+/// Least gain of a change, metres.
 const LEAST_GAIN_M: f64 = 1e-6;
 
-/// Points with an arc at each but the first and the last.
+/// Points with an arc at each, except the first and the last.
 #[derive(Clone, Debug)]
 pub(super) struct Chain {
     pub(super) points: Vec<Point2>,
     pub(super) fillets: Vec<Fillet>,
-    /// What it costs that a leg passes near obstacles, metres.
+    /// Cost of passing near obstacles, by leg, metres.
     pub(super) tightness_m: Vec<f64>,
     /// Whether the first leg must keep its direction, and the last one.
     pub(super) first_is_fixed: bool,
@@ -25,7 +25,7 @@ pub(super) struct Chain {
 }
 
 impl Chain {
-    /// Moves each corner about, and leaves corners out, as long as that gains something.
+    /// Moves, merges and drops corners as long as that lowers the cost.
     pub(super) fn refine(&mut self, task: &RoundingTask) {
         self.measure(task);
         for step_radii in MOVES_RADII {
@@ -37,7 +37,7 @@ impl Chain {
         }
     }
 
-    /// Works out how near to obstacles all arcs and legs pass.
+    /// Computes the cost of passing near obstacles for all arcs and legs.
     fn measure(&mut self, task: &RoundingTask) {
         for corner in 1..self.points.len() - 1 {
             let fillet = self.fillets[corner - 1];
@@ -47,7 +47,7 @@ impl Chain {
         self.measure_legs(task, 0..=self.points.len() - 2);
     }
 
-    /// Tries all corners once; whether anything was gained.
+    /// Tries all corners once; returns whether the cost fell.
     fn pass(&mut self, task: &RoundingTask, step_m: f64) -> bool {
         let mut has_gained = false;
         let mut corner = 1;
@@ -76,7 +76,7 @@ impl Chain {
         has_gained
     }
 
-    /// The chain less a corner; none where that would turn a leg that must not turn.
+    /// The chain without a corner; none where that would turn a leg whose direction is fixed.
     fn without(&self, corner: usize) -> Option<Self> {
         let is_fixed = self.first_is_fixed && corner == 1
             || self.last_is_fixed && corner + 2 == self.points.len();
@@ -111,7 +111,7 @@ impl Chain {
         })
     }
 
-    /// Where a corner might go: outward, inward, and along both legs.
+    /// Candidate positions of a corner: outward, inward, and along both legs.
     fn moves(&self, corner: usize, step_m: f64) -> Vec<Point2> {
         let at = self.points[corner];
         let [back, on] = [corner - 1, corner].map(|leg| Point2::unit(self.heading_rad(leg)));
@@ -154,7 +154,7 @@ impl Chain {
             *changed.start().max(&1)..=(changed.end() + n_removed).min(self.points.len() - 2);
         let known = self.cost(task, before);
         let legs = corners(&to).start() - 1..=*corners(&to).end();
-        // The widest arcs cost least: without them there is nothing to gain.
+        // The widest arcs cost least: if they do not gain, no arcs do.
         to.tightness_m[legs.clone()].fill(0.0);
         let limit = known - LEAST_GAIN_M;
         let is_better = to.round(task, corners(&to), None)
@@ -168,7 +168,7 @@ impl Chain {
         is_better
     }
 
-    /// What some corners cost with the legs before, between and behind them.
+    /// Cost of some corners with the legs before, between and behind them.
     fn cost(&self, task: &RoundingTask, corners: RangeInclusive<usize>) -> f64 {
         let legs = corners.start().saturating_sub(1)..=(*corners.end()).max(corners.start() - 1);
         let legs = legs
@@ -179,8 +179,8 @@ impl Chain {
             .sum::<f64>()
     }
 
-    /// Gives some corners their widest arcs or, below a limit of their cost, the widest that are
-    /// free; whether all have one.
+    /// Gives some corners their widest arcs or, below a limit of their cost, the widest free ones;
+    /// returns whether all corners have one.
     fn round(
         &mut self,
         task: &RoundingTask,
@@ -235,7 +235,7 @@ impl Chain {
         task.tightness_m(begins, &[fillet.arc()])
     }
 
-    /// Works out how near to obstacles some legs pass; whether all of them are free.
+    /// Computes the cost of passing near obstacles for some legs; returns whether all are free.
     fn measure_legs(&mut self, task: &RoundingTask, mut legs: RangeInclusive<usize>) -> bool {
         legs.all(|leg| {
             let [from_m, to_m] = self.straight_m(leg);
@@ -246,7 +246,7 @@ impl Chain {
         })
     }
 
-    /// From where to where a leg is driven, metres from its first point.
+    /// The ends of the straight part of a leg, metres from its first point.
     fn straight_m(&self, leg: usize) -> [f64; 2] {
         let tangent_m = |corner: usize| {
             let fillet = corner.checked_sub(1).and_then(|i| self.fillets.get(i));

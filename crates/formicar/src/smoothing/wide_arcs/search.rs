@@ -10,9 +10,9 @@ use std::collections::HashMap;
 
 /// The longest leg, turning radii.
 const LEG_RADII: f64 = 100.0;
-/// How much of a leg a corner may take where it cannot do with half.
+/// Largest share of a leg that a corner may take where half is not enough.
 const CROWDED_SHARE: f64 = 0.95;
-/// Where the first corner may be on the line of the start's heading, turning radii.
+/// Distances of the first corner from the start along its heading, turning radii.
 const LEAD_RADII: [f64; 7] = [0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0];
 
 /// A path of straight lines, arcs and curves.
@@ -194,7 +194,7 @@ impl Search<'_> {
             return with_share(1.0);
         }
         with_share(0.5).or_else(|| {
-            // Not where half was enough for a wider arc.
+            // A larger share only where half was not enough for any arc.
             let half = before_m.min(0.5 * next.distance_m);
             let was_enough = Fillet::new(self.task, turn_rad, half, 0).is_some();
             (!was_enough).then(|| with_share(CROWDED_SHARE)).flatten()

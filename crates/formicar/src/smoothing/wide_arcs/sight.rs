@@ -4,7 +4,7 @@ use crate::geometry::Point2;
 use crate::map::{BitGrid, DiagonalRule, line_of_sight};
 use std::ops::Range;
 
-/// Points nearer to each other than this are one, metres.
+/// Points nearer to each other than this are the same, metres.
 const SAME_PLACE_M: f64 = 1e-9;
 /// Weight of the heuristic: above 1 the search skips paths that might be slightly better; the
 /// result costs at most this many times the least.
@@ -36,15 +36,15 @@ pub(super) struct Sights {
     pub(super) points: Vec<Point2>,
     n_leads: usize,
     all: Vec<Sight>,
-    /// Of each point, its part of `all`.
+    /// The part of `all` that belongs to each point.
     ranges: Vec<Range<usize>>,
     /// Least cost from each point to the last, metres.
     rest: Vec<f64>,
 }
 
 impl Sights {
-    /// None where the polyline does not move. Leads are the places of the first corner if the start
-    /// has a heading; the first point then sees nothing else.
+    /// Finds all lines of sight; none if the polyline does not move. Leads are the places of the
+    /// first corner if the start has a heading; the first point then sees nothing else.
     pub(super) fn new(polyline: &[Point2], leads: &[Point2], view: &View) -> Option<Self> {
         let View { lethal, .. } = *view;
         let mut points = polyline.to_vec();
