@@ -3,7 +3,7 @@
 //! The colony walks on [`MoveMasks`](crate::map::MoveMasks), which hold the same in a byte per
 //! cell. These lists are for comparing the two calculations of the paper.
 
-use crate::map::{BitGrid, DiagonalRule, STEPS};
+use crate::map::{BitGrid, Cell, DiagonalRule, STEPS};
 use std::f64::consts::SQRT_2;
 
 /// For each cell its neighbors by index, row times columns plus column, with their distances:
@@ -45,9 +45,9 @@ impl PositionClass {
     ];
 
     /// The class of a cell on a map of at least 2 x 2 cells.
-    pub fn of((col, row): (usize, usize), (n_cols, n_rows): (usize, usize)) -> Self {
-        let third = |i: usize, n: usize| usize::from(i > 0) + usize::from(i + 1 == n);
-        Self::ALL[third(row, n_rows)][third(col, n_cols)]
+    pub fn of(cell: Cell, n_cols: usize, n_rows: usize) -> Self {
+        let third = |i: u32, n: usize| usize::from(i > 0) + usize::from(i as usize + 1 == n);
+        Self::ALL[third(cell.row, n_rows)][third(cell.col, n_cols)]
     }
 
     /// The steps to neighbors that exist, a bit each in the order of [`STEPS`].
@@ -75,22 +75,22 @@ impl Adjacency {
     /// From each cell to the neighbors that its position class has: in proportion to the number of
     /// cells. The map has at least 2 x 2 cells.
     pub fn analytical(blocked: &BitGrid, rule: DiagonalRule) -> Self {
-        let size = (blocked.n_cols(), blocked.n_rows());
+        let (n_cols, n_rows) = (blocked.n_cols(), blocked.n_rows());
         let neighbors = |index: usize| {
-            let (col, row) = (index % size.0, index / size.0);
-            if blocked.get(col, row) {
+            let cell = Cell::new((index % n_cols) as u32, (index / n_cols) as u32);
+            if is_blocked(blocked, cell) {
                 return Vec::new();
             }
-            let existing = PositionClass::of((col, row), size).steps();
+            let existing = PositionClass::of(cell, n_cols, n_rows).steps();
             let mut neighbors: Vec<(u32, f64)> = (0..8)
                 .filter(|step| existing >> step & 1 == 1)
-                .filter_map(|step| weighed(blocked, rule, (col, row), STEPS[step]))
+                .filter_map(|step| weighed(blocked, rule, cell, STEPS[step]))
                 .collect();
             neighbors.sort_unstable_by_key(|&(index, _)| index);
             neighbors
         };
         Self {
-            neighbors: (0..size.0 * size.1).map(neighbors).collect(),
+            neighbors: (0..n_cols * n_rows).map(neighbors).collect(),
         }
     }
 
@@ -98,14 +98,16 @@ impl Adjacency {
     /// square of the number of cells.
     pub fn global(blocked: &BitGrid, rule: DiagonalRule) -> Self {
         let (n_cols, n_cells) = (blocked.n_cols(), blocked.n_cols() * blocked.n_rows());
-        let place = |index: usize| ((index % n_cols) as i32, (index / n_cols) as i32);
+        let cell = |index: usize| Cell::new((index % n_cols) as u32, (index / n_cols) as u32);
         let weight = |from: usize, to: usize| {
-            let ((col, row), (to_col, to_row)) = (place(from), place(to));
-            let step = (to_col - col, to_row - row);
+            let (from, to) = (cell(from), cell(to));
+            let step = (
+                to.col as i32 - from.col as i32,
+                to.row as i32 - from.row as i32,
+            );
             let is_near = step != (0, 0) && step.0.abs() <= 1 && step.1.abs() <= 1;
-            let is_free = !blocked.get(col as usize, row as usize);
-            (is_near && is_free)
-                .then(|| weighed(blocked, rule, (col as usize, row as usize), step))
+            (is_near && !is_blocked(blocked, from))
+                .then(|| weighed(blocked, rule, from, step))
                 .flatten()
         };
         let neighbors = |from: usize| (0..n_cells).filter_map(|to| weight(from, to)).collect();
@@ -115,34 +117,42 @@ impl Adjacency {
     }
 }
 
+fn is_blocked(blocked: &BitGrid, cell: Cell) -> bool {
+    blocked.get(cell.col as usize, cell.row as usize)
+}
+
 /// The neighbor that a step from a free cell leads to, and its distance, if the step is allowed.
 /// It does not leave the map.
 fn weighed(
     blocked: &BitGrid,
     rule: DiagonalRule,
-    (col, row): (usize, usize),
+    from: Cell,
     (dx, dy): (i32, i32),
 ) -> Option<(u32, f64)> {
-    let to = (
-        col.wrapping_add_signed(dx as isize),
-        row.wrapping_add_signed(dy as isize),
+    let to = Cell::new(
+        from.col.wrapping_add_signed(dx),
+        from.row.wrapping_add_signed(dy),
     );
-    if blocked.get(to.0, to.1) {
+    if is_blocked(blocked, to) {
         return None;
     }
-    let index = (to.1 * blocked.n_cols() + to.0) as u32;
+    let index = to.row * blocked.n_cols() as u32 + to.col;
     if dx == 0 || dy == 0 {
         return Some((index, 1.0));
     }
     // Wang 2019 (3-6): the two cells that a diagonal step passes.
-    let n_beside = usize::from(blocked.get(to.0, row)) + usize::from(blocked.get(col, to.1));
+    let beside = [Cell::new(to.col, from.row), Cell::new(from.col, to.row)];
+    let n_beside: usize = beside
+        .iter()
+        .map(|&cell| usize::from(is_blocked(blocked, cell)))
+        .sum();
     (n_beside <= rule.max_corner_obstacles()).then_some((index, SQRT_2))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::map::{Cell, MoveMasks};
+    use crate::map::MoveMasks;
     use crate::numeric::Seed;
 
     #[test]

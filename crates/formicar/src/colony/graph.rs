@@ -1,7 +1,7 @@
 //! The graph that ants walk on: cells and the steps between them.
 //!
-//! Cells that ants can reach are numbered in ascending order, and all data that ants read are stored
-//! by these numbers: the size of the map does not slow down a colony in a corridor.
+//! Cells that ants can reach are numbered in ascending order, and all data that ants read are
+//! stored by these numbers: the size of the map does not slow down a colony in a corridor.
 
 use super::config::{AdjacentGoal, ColonyConfig};
 use super::corridor::Corridor;

@@ -2,8 +2,8 @@
 //!
 //! Each iteration the ants walk from start to goal on frozen pheromone, each by random numbers of
 //! its own; then pheromone evaporates, ants deposit, limits are kept. What varies between methods
-//! is a rule in a slot: [`corridor`], [`heuristic`], [`initial`], [`transition`],
-//! [`dead_end`], [`evaporation`], [`deposit`], [`limits`]. A method is a [`ColonyConfig`], and those of papers
+//! is a rule in a slot: [`corridor`], [`heuristic`], [`initial`], [`transition`], [`dead_end`],
+//! [`evaporation`], [`deposit`], [`limits`]. A method is a [`ColonyConfig`], and those of papers
 //! are in [`presets`].
 
 mod adjacency;

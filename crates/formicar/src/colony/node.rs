@@ -26,8 +26,8 @@ const LEAST_SCALE: f32 = 1e-30;
 
 /// The integer part of a number from 0 to [`MAX_WEIGHT`]; arbitrary for not-a-number.
 ///
-/// Same result as a cast, but vectorizes to eight at a time: with nearly a half subtracted, adding a
-/// large number rounds down, and the lower bits of the sum are the integer part.
+/// Same result as a cast, but vectorizes to eight at a time: with nearly a half subtracted, adding
+/// a large number rounds down, and the lower bits of the sum are the integer part.
 #[inline]
 fn whole(number: f32) -> u32 {
     const HALF: f64 = 0.5 - 1.0 / (1 << 25) as f64;

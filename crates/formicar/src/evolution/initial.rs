@@ -4,6 +4,7 @@ use super::config::{AstarSeeded, EvolutionConfig, InitialPopulation};
 use super::fitness::obstruction;
 use super::problem::EvolutionProblem;
 use super::reachable::ReachableCells;
+use crate::geometry::Point2;
 use crate::map::Cell;
 use crate::numeric::{RandomStream, Seed};
 use crate::smoothing::remove_redundant_nodes;
@@ -83,7 +84,7 @@ impl Seeds {
         }
         let last = line.len() - 1;
         for cell in &mut line[1..last] {
-            let place = (f64::from(cell.col), f64::from(cell.row));
+            let place = Point2::new(f64::from(cell.col), f64::from(cell.row));
             *cell = reachable
                 .near(place, self.noise_cells, random)
                 .unwrap_or(*cell);

@@ -2,6 +2,7 @@
 
 use super::config::EvolutionConfig;
 use super::reachable::ReachableCells;
+use crate::geometry::Point2;
 use crate::map::Cell;
 use crate::numeric::RandomStream;
 
@@ -49,8 +50,8 @@ fn move_one(
 fn insert(line: &mut Vec<Cell>, reachable: &ReachableCells, random: &mut RandomStream) {
     let after = 1 + random.below(line.len() - 1);
     let (a, b) = (place(line[after - 1]), place(line[after]));
-    let middle = (0.5 * (a.0 + b.0), 0.5 * (a.1 + b.1));
-    let (dx, dy) = (b.0 - a.0, b.1 - a.1);
+    let middle = (a + b) * 0.5;
+    let (dx, dy) = (b.x - a.x, b.y - a.y);
     let reach_cells = 0.5 * (dx * dx + dy * dy).sqrt();
     if let Some(cell) = reachable.near(middle, reach_cells, random) {
         line.insert(after, cell);
@@ -61,12 +62,8 @@ fn insert(line: &mut Vec<Cell>, reachable: &ReachableCells, random: &mut RandomS
 fn smooth(line: &mut [Cell], reachable: &ReachableCells, random: &mut RandomStream) {
     let which = any_via(line, random);
     let [before, here, after] = [which - 1, which, which + 1].map(|i| place(line[i]));
-    let settled = |before: f64, here: f64, after: f64| 0.25 * before + 0.5 * here + 0.25 * after;
-    let (col, row) = (
-        settled(before.0, here.0, after.0),
-        settled(before.1, here.1, after.1),
-    );
-    if let Some(cell) = reachable.at(col, row) {
+    let settled = before * 0.25 + here * 0.5 + after * 0.25;
+    if let Some(cell) = reachable.at(settled) {
         line[which] = cell;
     }
 }
@@ -81,8 +78,8 @@ fn any_via(line: &[Cell], random: &mut RandomStream) -> usize {
 }
 
 /// A cell in columns and rows.
-fn place(cell: Cell) -> (f64, f64) {
-    (f64::from(cell.col), f64::from(cell.row))
+fn place(cell: Cell) -> Point2 {
+    Point2::new(f64::from(cell.col), f64::from(cell.row))
 }
 
 #[cfg(test)]

@@ -17,7 +17,7 @@ pub(super) fn blocked_length(blocked: &BitGrid, from: Cell, to: Cell) -> f64 {
     let (x0, x1) = (center(low.col), center(high.col));
     let n_rows = high.row - low.row;
     if n_rows == 0 {
-        return covered(blocked, low.row, (x0.min(x1), x0.max(x1)));
+        return covered(blocked, low.row, x0.min(x1), x0.max(x1));
     }
     let (dx, dy) = (x1 - x0, f64::from(n_rows));
     let length = (dx * dx + dy * dy).sqrt();
@@ -38,18 +38,15 @@ pub(super) fn blocked_length(blocked: &BitGrid, from: Cell, to: Cell) -> f64 {
     let columns: f64 = (0..=n_rows)
         .map(|k| {
             let (enters, leaves) = (at(k), at(k + 1));
-            covered(
-                blocked,
-                low.row + k,
-                (enters.min(leaves), enters.max(leaves)),
-            )
+            let row = low.row + k;
+            covered(blocked, row, enters.min(leaves), enters.max(leaves))
         })
         .sum();
     columns * length / dx.abs()
 }
 
 /// Length of an interval of a row inside blocked cells; column c reaches from c to c + 1.
-fn covered(blocked: &BitGrid, row: u32, (x0, x1): (f64, f64)) -> f64 {
+fn covered(blocked: &BitGrid, row: u32, x0: f64, x1: f64) -> f64 {
     let words = blocked.row(row as usize);
     let is_blocked = |col: usize| {
         words

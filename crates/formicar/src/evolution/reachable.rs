@@ -1,5 +1,6 @@
 //! The cells that a via point may lie on: those that can be reached from the start.
 
+use crate::geometry::Point2;
 use crate::map::{BitGrid, Cell, Components, DiagonalRule, set_bits};
 use crate::numeric::RandomStream;
 
@@ -59,7 +60,7 @@ impl ReachableCells {
     /// likely. None if a few draws find none.
     pub(super) fn near(
         &self,
-        (col, row): (f64, f64),
+        place: Point2,
         reach_cells: f64,
         random: &mut RandomStream,
     ) -> Option<Cell> {
@@ -69,13 +70,13 @@ impl ReachableCells {
                 reach_cells * unit * unit.abs()
             };
             let (dx, dy) = (offset(), offset());
-            self.at(col + dx, row + dy)
+            self.at(place + Point2::new(dx, dy))
         })
     }
 
     /// The cell whose center is nearest to a place in columns and rows, if it can be reached.
-    pub(super) fn at(&self, col: f64, row: f64) -> Option<Cell> {
-        let (col, row) = (col.round() as i64, row.round() as i64);
+    pub(super) fn at(&self, place: Point2) -> Option<Cell> {
+        let (col, row) = (place.x.round() as i64, place.y.round() as i64);
         let is_reachable = self.reachable.contains(col, row);
         is_reachable.then(|| Cell::new(col as u32, row as u32))
     }
@@ -104,13 +105,13 @@ mod tests {
         let start = Cell::new(0, 4);
         let reachable = ReachableCells::new(&blocked, DiagonalRule::NoObstacles, start);
         let mut random = Seed(1).stream([0, 0]);
-        let place = |cell: Cell| (cell.col, cell.row);
+        let pair = |cell: Cell| (cell.col, cell.row);
         let drawn: BTreeSet<_> = (0..2_000)
-            .map(|_| place(reachable.anywhere(&mut random)))
+            .map(|_| pair(reachable.anywhere(&mut random)))
             .collect();
         let near: BTreeSet<_> = (0..2_000)
-            .filter_map(|_| reachable.near((2.0, 2.0), 9.0, &mut random))
-            .map(place)
+            .filter_map(|_| reachable.near(Point2::new(2.0, 2.0), 9.0, &mut random))
+            .map(pair)
             .collect();
         // Everything but the corners at the lower left and the upper right.
         let expected = [

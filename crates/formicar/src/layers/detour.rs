@@ -33,8 +33,8 @@ pub(super) struct Detours {
     labels: Vec<u32>,
     reached: Vec<usize>,
     queue: BinaryHeap<Reverse<(u32, usize)>>,
-    /// Queued entries that may still matter: the source, cells of the pocket, and paths that closing
-    /// forbids.
+    /// Queued entries that may still matter: the source, cells of the pocket, and paths that
+    /// closing forbids.
     n_inner: usize,
     targets: BitGrid,
 }
@@ -52,8 +52,9 @@ impl Detours {
 
     /// Whether closing makes some path between two cells outside of the pocket longer.
     ///
-    /// The rim holds all cells outside of the pocket from which a step leads into it. Every path that
-    /// closing affects leaves the outside and returns to it by cells of the rim, so these suffice.
+    /// The rim holds all cells outside of the pocket from which a step leads into it. Every path
+    /// that closing affects leaves the outside and returns to it by cells of the rim, so these
+    /// suffice.
     pub(super) fn are_needed(
         &mut self,
         moves: &PocketMoves,
@@ -77,8 +78,8 @@ impl Detours {
         answer
     }
 
-    /// Whether some path from a cell to a target becomes longer. The search ends when all targets are
-    /// settled, or no entry matters any more.
+    /// Whether some path from a cell to a target becomes longer. The search ends when all targets
+    /// are settled, or no entry matters any more.
     fn search(
         &mut self,
         moves: &PocketMoves,

@@ -18,9 +18,9 @@ const PIECE_RAD: f64 = std::f64::consts::PI / 36.0;
 ///
 /// If a mask is clear, the motion is free from every position in that sixteenth of a cell. The
 /// reverse does not hold: masks are too large by up to a quarter of a cell each way, and by the
-/// excess of the hulls of their pieces. Sampling poses along an arc instead would miss the area that
-/// the swinging front corner sweeps between them. The masks of a heading are made when they are
-/// first asked for. Width and number of rows are not limited.
+/// excess of the hulls of their pieces. Sampling poses along an arc instead would miss the area
+/// that the swinging front corner sweeps between them. The masks of a heading are made when they
+/// are first asked for. Width and number of rows are not limited.
 #[derive(Clone, Debug)]
 pub struct DriveMasks {
     lattice: PrimitiveSet,

@@ -12,9 +12,9 @@ use std::collections::BinaryHeap;
 /// Cost to go from cells to the nearest of some goals, along allowed moves and over tolls.
 ///
 /// The front spreads only as far as costs are asked for, so that a query pays for the cells between
-/// its ends. [`Self::add_tolls`] makes cells more expensive and repairs only the paths that led over
-/// them, as D* Lite does (Koenig & Likhachev 2002). A field belongs to one query, and its repairs
-/// end with it.
+/// its ends. [`Self::add_tolls`] makes cells more expensive and repairs only the paths that led
+/// over them, as D* Lite does (Koenig & Likhachev 2002). A field belongs to one query, and its
+/// repairs end with it.
 pub struct GuideField<'a> {
     moves: &'a MoveMasks,
     wave: Wave,

@@ -16,8 +16,8 @@ mod wave;
 pub use astar::{AstarWorkspace, astar};
 pub use cost::{DIAGONAL_COST, STRAIGHT_COST};
 pub use drive::{
-    DrivableMap, DrivableMapParts, DriveProblem, Driven, Guide, HybridAstarConfig, Inflation, Side,
-    State,
+    DrivableMap, DrivableMapParts, DriveProblem, Driven, FieldGrid, Guide, HybridAstarConfig,
+    Inflation, Side, State,
 };
 pub use goal_field::GoalField;
 pub(crate) use grid_search::check_end;

@@ -31,8 +31,8 @@ impl RedundantNodes {
 
 /// The nodes of a path without those that are redundant.
 ///
-/// A node is dropped where the path goes straight on, and where its two neighbors see each other: the
-/// segment between their centers, Lei 2020 (4) and (5), touches no blocked cell, corner contact
+/// A node is dropped where the path goes straight on, and where its two neighbors see each other:
+/// the segment between their centers, Lei 2020 (4) and (5), touches no blocked cell, corner contact
 /// judged by the diagonal rule. Passes from start to goal are repeated until nothing changes, so
 /// that a second call changes nothing. The path never grows longer. Of a path whose steps the rule
 /// allows, every segment of the result is in sight.

@@ -5,7 +5,7 @@ use super::graph::{ChordGraph, Turn};
 use super::transition::Memory;
 use crate::colony::generation::Generation;
 use crate::colony::worker_pool::AntWorker;
-use crate::geometry::angle_difference;
+use crate::geometry::{Point2, angle_difference};
 use crate::map::Cell;
 use crate::numeric::{RandomStream, Seed};
 use crate::objective::{PolylineCost, SteeringMeter};
@@ -48,6 +48,20 @@ pub(super) struct ChordWorker<'a> {
     goes_to_goal: bool,
 }
 
+/// A cell, and the step that led there; none at the start.
+#[derive(Clone, Copy)]
+struct Position {
+    at: Cell,
+    last: Option<usize>,
+}
+
+/// Everything besides its memories that an ant's next step depends on.
+struct Situation<'a> {
+    shared: &'a ChordShared,
+    meter: &'a SteeringMeter,
+    position: Position,
+}
+
 /// Adds a step to the cost so far and to the memories.
 fn take(step: &Candidate, meter: &mut SteeringMeter, memories: &mut [Memory; 2]) {
     let Turn {
@@ -78,19 +92,24 @@ impl<'a> ChordWorker<'a> {
         let (mut meter, mut n_retreats) = (self.go_back(usize::MAX), 0);
         let mut n_left = graph.config.dead_end.max_retreats() as usize;
         while self.taken.len() < graph.max_steps {
-            let (at, last) = self.standing();
-            if at == graph.goal {
+            let position = self.position();
+            if position.at == graph.goal {
                 return (true, meter);
             }
-            if let Some((turn_rad, length_m)) = self.goal_step(at, last, &meter) {
+            if let Some((turn_rad, length_m)) = self.goal_step(position, &meter) {
                 meter.take(turn_rad, length_m);
                 self.goes_to_goal = true;
                 return (true, meter);
             }
-            if let Some(chosen) = self.choose(shared, stream, (at, last), &meter) {
+            let situation = Situation {
+                shared,
+                meter: &meter,
+                position,
+            };
+            if let Some(chosen) = self.choose(&situation, stream) {
                 take(&chosen, &mut meter, &mut self.memories);
                 self.taken.push(chosen);
-            } else if n_left > 0 && last.is_some() {
+            } else if n_left > 0 && position.last.is_some() {
                 // Repeated failures call for longer retreats.
                 n_retreats += 1;
                 let n_back = (1 + stream.below(2 * n_retreats)).min(n_left);
@@ -103,12 +122,13 @@ impl<'a> ChordWorker<'a> {
         (false, meter)
     }
 
-    /// The ant's cell, and the step that led there.
-    fn standing(&self) -> (Cell, Option<usize>) {
+    /// The ant's position.
+    fn position(&self) -> Position {
         let last = self.taken.last();
-        last.map_or((self.graph.start, None), |last| {
-            (last.to, Some(usize::from(last.step)))
-        })
+        Position {
+            at: last.map_or(self.graph.start, |last| last.to),
+            last: last.map(|last| usize::from(last.step)),
+        }
     }
 
     /// Forgets the last steps, and adds up the cost of those that remain.
@@ -126,20 +146,15 @@ impl<'a> ChordWorker<'a> {
 
     /// The turn and the length of a last step to the goal, where it is near, within the steering
     /// limit, and safe.
-    fn goal_step(
-        &self,
-        at: Cell,
-        last: Option<usize>,
-        meter: &SteeringMeter,
-    ) -> Option<(f64, f64)> {
+    fn goal_step(&self, position: Position, meter: &SteeringMeter) -> Option<(f64, f64)> {
         let graph = self.graph;
-        if graph.distance(at) > GOAL_REACHES * f64::from(graph.config.reach) {
+        if graph.distance(position.at) > GOAL_REACHES * f64::from(graph.config.reach) {
             return None;
         }
-        let (from, to) = (self.position_m(at, last), graph.center_m(graph.goal));
+        let (from, to) = (self.point_m(position), graph.center_m(graph.goal));
         let step = to - from;
         let length_m = step.norm();
-        let turn_rad = match self.heading_rad(last) {
+        let turn_rad = match self.heading_rad(position) {
             Some(heading_rad) => angle_difference(step.angle(), heading_rad),
             None => 0.0,
         };
@@ -149,15 +164,10 @@ impl<'a> ChordWorker<'a> {
     }
 
     /// Draws a safe step, if there is one.
-    fn choose(
-        &mut self,
-        shared: &ChordShared,
-        stream: &mut RandomStream,
-        (at, last): (Cell, Option<usize>),
-        meter: &SteeringMeter,
-    ) -> Option<Candidate> {
-        let chosen = self.draw(shared, stream, (at, last), meter);
-        if chosen.is_some() || last.is_some() || self.heading_rad(last).is_none() {
+    fn choose(&mut self, situation: &Situation, stream: &mut RandomStream) -> Option<Candidate> {
+        let chosen = self.draw(situation, stream);
+        let position = situation.position;
+        if chosen.is_some() || position.last.is_some() || self.heading_rad(position).is_none() {
             return chosen;
         }
         // No safe step begins with the start's heading: the vehicle will have to change gear there.
@@ -165,51 +175,44 @@ impl<'a> ChordWorker<'a> {
             let length_m = self.graph.length_m(step);
             (step, self.graph.asked(0.0, length_m), length_m)
         });
-        self.draw_among(shared, stream, (at, meter), free)
+        self.draw_among(situation, stream, free)
     }
 
-    fn draw(
-        &mut self,
-        shared: &ChordShared,
-        stream: &mut RandomStream,
-        (at, last): (Cell, Option<usize>),
-        meter: &SteeringMeter,
-    ) -> Option<Candidate> {
-        let graph = self.graph;
-        if let Some(last) = last {
+    fn draw(&mut self, situation: &Situation, stream: &mut RandomStream) -> Option<Candidate> {
+        let (graph, position) = (self.graph, situation.position);
+        if let Some(last) = position.last {
             let followers = graph.followers[last].iter().map(|&step| {
                 let step = usize::from(step);
                 (step, graph.turn(last, step), graph.length_m(step))
             });
-            return self.draw_among(shared, stream, (at, meter), followers);
+            return self.draw_among(situation, stream, followers);
         }
-        let heading_rad = self.heading_rad(last);
-        let from = self.position_m(at, last);
+        let heading_rad = self.heading_rad(position);
+        let from = self.point_m(position);
         let first = (0..graph.ring.len()).map(|step| {
-            let to = super::ring::moved(at, graph.ring.moves[step]);
+            let to = super::ring::moved(position.at, graph.ring.moves[step]);
             let chord = graph.center_m(to) - from;
             let turn_rad = heading_rad.map_or(0.0, |h| angle_difference(chord.angle(), h));
             (step, graph.asked(turn_rad, chord.norm()), chord.norm())
         });
-        self.draw_among(shared, stream, (at, meter), first)
+        self.draw_among(situation, stream, first)
     }
 
     fn draw_among(
         &mut self,
-        shared: &ChordShared,
+        situation: &Situation,
         stream: &mut RandomStream,
-        (at, meter): (Cell, &SteeringMeter),
         steps: impl Iterator<Item = (usize, Turn, f64)>,
     ) -> Option<Candidate> {
-        let graph = self.graph;
+        let (graph, at) = (self.graph, situation.position.at);
         let standing = Standing {
             at,
             number: graph.cells.number(at)?,
-            meter,
+            meter: situation.meter,
             memories: &self.memories,
         };
         self.candidates.gather(graph, &standing, steps);
-        self.candidates.weigh(graph, &standing, shared);
+        self.candidates.weigh(graph, &standing, situation.shared);
         let obstacles = graph.problem.obstacles.lethal();
         loop {
             let drawn = self.candidates.draw(stream.unit())?;
@@ -223,17 +226,17 @@ impl<'a> ChordWorker<'a> {
     }
 
     /// The ant's position, grid coordinates: the exact start, then cell centers.
-    fn position_m(&self, at: Cell, last: Option<usize>) -> crate::geometry::Point2 {
-        match last {
-            Some(_) => self.graph.center_m(at),
+    fn point_m(&self, position: Position) -> Point2 {
+        match position.last {
+            Some(_) => self.graph.center_m(position.at),
             None => self.graph.problem.start.position(),
         }
     }
 
     /// The heading that the next step turns from; none where it is free.
-    fn heading_rad(&self, last: Option<usize>) -> Option<f64> {
+    fn heading_rad(&self, position: Position) -> Option<f64> {
         let problem = self.graph.problem;
-        match last {
+        match position.last {
             Some(last) => Some(self.graph.ring.directions_rad[last]),
             None => problem
                 .start_heading_is_exact

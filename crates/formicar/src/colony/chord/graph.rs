@@ -71,7 +71,7 @@ impl<'a> ChordGraph<'a> {
         let Some(shortest_cells) = to_goal.distance_cells(start) else {
             return Ok(None);
         };
-        let cells = Numbered::of(&config.corridor, moves, (&to_goal, start), &mut limits)?;
+        let cells = Numbered::of(&config.corridor, moves, &to_goal, start, &mut limits)?;
         let to_go = cells.iter().map(|cell| to_goal.distance_cells(cell));
         let to_go = to_go
             .map(|cells| cells.unwrap_or(f64::INFINITY) as f32)

@@ -33,7 +33,8 @@ impl Numbered {
     pub(super) fn of(
         corridor: &Corridor,
         moves: &MoveMasks,
-        (to_goal, start): (&GoalField, Cell),
+        to_goal: &GoalField,
+        start: Cell,
         limits: &mut Limits,
     ) -> Result<Self, SearchError> {
         match corridor {

@@ -90,7 +90,7 @@ impl<'a> DriveColony<'a, '_> {
         }
         let (radius_m, repair) = (self.problem.map().radius_m(), self.config.repair.clone());
         self.guide().repair(
-            |resolution_m, size| repair::tolls(&repair, &deaths, radius_m, resolution_m, size),
+            |grid| repair::tolls(&repair, &deaths, radius_m, grid),
             limits,
         )?;
         Ok(None)
@@ -116,7 +116,7 @@ impl<'a> DriveColony<'a, '_> {
             .collect();
         let (rho, deposit) = (self.config.trails.rho, self.config.trails.deposit);
         let shared = self.shared_mut();
-        shared.trails.renew(rho, deposit, (start, arcs));
+        shared.trails.renew(rho, deposit, start, arcs);
         shared.first_wins = false;
         shared.starts = branches.iter().map(|branch| branch.1).collect();
         let ways = self.walk();

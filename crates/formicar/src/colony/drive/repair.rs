@@ -3,7 +3,7 @@
 use super::FieldRepair;
 use crate::geometry::Point2;
 use crate::map::Cell;
-use crate::search::STRAIGHT_COST;
+use crate::search::{FieldGrid, STRAIGHT_COST};
 use std::collections::BTreeMap;
 
 /// Tolls on the cells around the places of death, in proportion to the deaths there.
@@ -11,9 +11,13 @@ pub(super) fn tolls(
     repair: &FieldRepair,
     deaths: &[Point2],
     radius_m: f64,
-    resolution_m: f64,
-    (n_cols, n_rows): (usize, usize),
+    grid: FieldGrid,
 ) -> Vec<(Cell, u32)> {
+    let FieldGrid {
+        resolution_m,
+        n_cols,
+        n_rows,
+    } = grid;
     let toll = (repair.toll_per_death * f64::from(STRAIGHT_COST)) as u32;
     let reach = (repair.reach_radii * radius_m / resolution_m).round() as i64;
     let mut tolls = BTreeMap::new();

@@ -34,7 +34,7 @@ impl Trails {
 
     /// Evaporates a share `rho` of all pheromone, and deposits some along a path; no bin holds more
     /// than 1.
-    pub(super) fn renew(&mut self, rho: f64, deposit: f64, (start, arcs): (Pose2, &[Arc])) {
+    pub(super) fn renew(&mut self, rho: f64, deposit: f64, start: Pose2, arcs: &[Arc]) {
         for tau in self.pheromone.values_mut() {
             *tau *= (1.0 - rho) as f32;
         }
@@ -72,17 +72,17 @@ mod tests {
     fn a_trail_is_told_by_place_heading_and_gear() {
         let mut trails = Trails::new(0.8);
         let (start, ahead) = (Pose2::default(), Arc::new(0.0, 8.0));
-        trails.renew(0.1, 0.5, (start, &[ahead]));
+        trails.renew(0.1, 0.5, start, &[ahead]);
         let on = Pose2::new(4.1, 0.1, 0.01);
         assert_eq!(trails.at(on, ahead), 0.5);
         assert_eq!(trails.at(on, Arc::new(0.0, -1.0)), 0.0);
         assert_eq!(trails.at(Pose2::new(4.1, 0.1, 1.6), ahead), 0.0);
         assert_eq!(trails.at(Pose2::new(4.1, 2.1, 0.01), ahead), 0.0);
         for _ in 0..9 {
-            trails.renew(0.1, 0.5, (start, &[ahead]));
+            trails.renew(0.1, 0.5, start, &[ahead]);
         }
         assert_eq!(trails.at(on, ahead), 1.0);
-        trails.renew(0.5, 0.0, (start, &[]));
+        trails.renew(0.5, 0.0, start, &[]);
         assert_eq!(trails.at(on, ahead), 0.5);
     }
 }

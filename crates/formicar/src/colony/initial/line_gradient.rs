@@ -40,7 +40,8 @@ impl LineGradient {
     /// Pheromone on some cells, row by row, and the least on the map.
     pub(super) fn values(
         &self,
-        (n_cols, n_rows): (usize, usize),
+        n_cols: usize,
+        n_rows: usize,
         ends: [Cell; 2],
         cells: &[u32],
     ) -> (Vec<f64>, f64) {
@@ -74,7 +75,7 @@ mod tests {
     fn falls_from_the_line_to_the_farthest_corner() {
         let ends = [Cell::new(0, 0), Cell::new(4, 4)];
         let cells: Vec<u32> = (0..25).collect();
-        let (values, least) = LineGradient::default().values((5, 5), ends, &cells);
+        let (values, least) = LineGradient::default().values(5, 5, ends, &cells);
         assert_eq!(least, values.iter().copied().fold(f64::INFINITY, f64::min));
         assert!((values[0] - 2.0).abs() < 1e-12 && (values[12] - 2.0).abs() < 1e-12);
         assert!((values[4] - 1.0).abs() < 1e-12 && (values[20] - 1.0).abs() < 1e-12);

@@ -67,8 +67,8 @@ impl InitialPheromone {
         let (values, least) = match self {
             Self::Uniform(rule) => (vec![rule.tau; cells.len()], rule.tau),
             Self::LineGradient(rule) => {
-                let size = (problem.moves().n_cols(), problem.moves().n_rows());
-                rule.values(size, [problem.start(), problem.goal()], cells)
+                let (moves, ends) = (problem.moves(), [problem.start(), problem.goal()]);
+                rule.values(moves.n_cols(), moves.n_rows(), ends, cells)
             }
             Self::AstarSeed(rule) => {
                 let path = shortest_path(problem, cells, limits)?;

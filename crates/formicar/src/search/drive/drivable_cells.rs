@@ -71,9 +71,9 @@ impl DrivableCells {
     }
 }
 
-/// Largest width of a cell of the field in map cells: an odd number, so that their centers coincide.
-/// Half a diagonal step is then shorter than the radius of inflation, so that no step between free
-/// cells leads over an obstacle.
+/// Largest width of a cell of the field in map cells: an odd number, so that their centers
+/// coincide. Half a diagonal step is then shorter than the radius of inflation, so that no step
+/// between free cells leads over an obstacle.
 fn stride(radius_cells: f64) -> u32 {
     let most = (radius_cells / CELLS_PER_STRIDE) as u32;
     (most.max(1) - 1) / 2 * 2 + 1

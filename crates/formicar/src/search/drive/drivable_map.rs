@@ -96,8 +96,8 @@ impl DrivableMap {
         Ok(DrivableMapParts { motions, cells }.on(obstacles, None))
     }
 
-    /// Releases the obstacles, so that they can be changed in place; parts still in use elsewhere are
-    /// copied.
+    /// Releases the obstacles, so that they can be changed in place; parts still in use elsewhere
+    /// are copied.
     pub fn into_parts(map: Arc<Self>) -> DrivableMapParts {
         match Arc::try_unwrap(map) {
             Ok(map) => map.parts,

@@ -1,6 +1,6 @@
 //! The heuristic of searches that drive: the larger of two estimates.
 
-use super::{DriveProblem, Inflation, one_way};
+use super::{DriveProblem, FieldGrid, Inflation, one_way};
 use crate::geometry::{Point2, Pose2, dubins, reeds_shepp};
 use crate::map::Cell;
 use crate::progress::{Limits, Status};
@@ -59,8 +59,7 @@ impl<'a> Guide<'a> {
             stride,
             resolution_m: f64::from(stride) * map_m,
         };
-        let size = (moves.n_cols(), moves.n_rows());
-        guide.charge(&one_way::tolls(problem, guide.resolution_m, size), limits)?;
+        guide.charge(&one_way::tolls(problem, guide.grid()), limits)?;
         let reaches = guide.measure(start, limits)?.is_some();
         Ok(reaches.then_some(guide))
     }
@@ -134,18 +133,26 @@ impl<'a> Guide<'a> {
         }
     }
 
-    /// Adds tolls to cells. `tolls` gets the size of a cell and the numbers of columns and rows.
+    /// Adds tolls to cells of the field.
     ///
     /// # Errors
     /// Deadline or cancel.
     pub fn repair(
         &mut self,
-        tolls: impl FnOnce(f64, (usize, usize)) -> Vec<(Cell, u32)>,
+        tolls: impl FnOnce(FieldGrid) -> Vec<(Cell, u32)>,
         limits: &mut Limits,
     ) -> Result<(), Status> {
-        let moves = self.field.moves();
-        let tolls = tolls(self.resolution_m, (moves.n_cols(), moves.n_rows()));
+        let tolls = tolls(self.grid());
         self.charge(&tolls, limits)
+    }
+
+    fn grid(&self) -> FieldGrid {
+        let moves = self.field.moves();
+        FieldGrid {
+            resolution_m: self.resolution_m,
+            n_cols: moves.n_cols(),
+            n_rows: moves.n_rows(),
+        }
     }
 
     fn charge(&mut self, tolls: &[(Cell, u32)], limits: &mut Limits) -> Result<(), Status> {

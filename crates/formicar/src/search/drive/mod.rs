@@ -16,4 +16,4 @@ pub use config::HybridAstarConfig;
 pub use drivable_map::{DrivableMap, DrivableMapParts};
 pub use guide::Guide;
 pub use problem::DriveProblem;
-pub use state::{Driven, Inflation, Side, State};
+pub use state::{Driven, FieldGrid, Inflation, Side, State};

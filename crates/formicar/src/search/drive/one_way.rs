@@ -1,6 +1,6 @@
 //! Tolls that teach a goal field, which has no headings, about a vehicle without reverse.
 
-use super::DriveProblem;
+use super::{DriveProblem, FieldGrid};
 use crate::geometry::{Point2, Pose2};
 use crate::map::Cell;
 use crate::scenario::MotionMode;
@@ -16,13 +16,14 @@ const TOLL_RADII: f64 = 5.0;
 const DEPTHS_CELLS: [f64; 4] = [1.5, 2.0, 2.5, 3.0];
 
 /// Tolls on a bar across the front of each goal and the back of the start, where headings are fixed
-/// and reverse is not allowed. Without them the field leads to a goal from the wrong side, or out of
-/// a start backwards.
-pub(super) fn tolls(
-    problem: &DriveProblem,
-    resolution_m: f64,
-    (n_cols, n_rows): (usize, usize),
-) -> Vec<(Cell, u32)> {
+/// and reverse is not allowed. Without them the field leads to a goal from the wrong side, or out
+/// of a start backwards.
+pub(super) fn tolls(problem: &DriveProblem, grid: FieldGrid) -> Vec<(Cell, u32)> {
+    let FieldGrid {
+        resolution_m,
+        n_cols,
+        n_rows,
+    } = grid;
     if problem.motion() != MotionMode::Forward {
         return Vec::new();
     }

@@ -5,6 +5,17 @@ use crate::geometry::{Arc, Pose2};
 /// A driven path: a start pose and the arcs from there, in grid coordinates.
 pub type Driven = (Pose2, Vec<Arc>);
 
+/// The cells of a goal field.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FieldGrid {
+    /// Side of a cell, metres.
+    pub resolution_m: f64,
+    /// Number of columns.
+    pub n_cols: usize,
+    /// Number of rows.
+    pub n_rows: usize,
+}
+
 /// The radius by which obstacles are inflated for the goal field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Inflation {

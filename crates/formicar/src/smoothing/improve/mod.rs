@@ -99,9 +99,9 @@ impl<'a> Improver<'a> {
         }
     }
 
-    /// Makes a free chain of arcs cheaper until tries cease to gain or a limit ends the search. Every
-    /// chain that `on_improved` receives is free, is cheaper than the one before, and ends where the
-    /// first one ends, within 1e-9.
+    /// Makes a free chain of arcs cheaper until tries cease to gain or a limit ends the search.
+    /// Every chain that `on_improved` receives is free, is cheaper than the one before, and ends
+    /// where the first one ends, within 1e-9.
     pub fn improve(
         &self,
         (start, arcs): (Pose2, &[Arc]),
