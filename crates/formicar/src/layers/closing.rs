@@ -1,8 +1,8 @@
 //! A map whose pockets are closed one by one, each on trial first.
 
 use super::detour::{Detours, OutOfSteps, PocketMoves};
+use super::pocket_fate::PocketFate;
 use super::pockets::Run;
-use super::u_shapes::PocketFate;
 use crate::map::{BitGrid, Cell, DiagonalRule, MoveMasks, STEPS, set_bits};
 use std::ops::Range;
 

@@ -11,6 +11,7 @@ mod detour;
 mod drive_masks;
 mod expansion;
 mod hull;
+mod pocket_fate;
 mod pockets;
 mod soft_costs;
 mod swept_masks;
@@ -21,9 +22,10 @@ use crate::map::{BitGrid, Cell, DiagonalRule, ring};
 pub use config::{Expansion, LayersConfig, MAX_EXPANSION_CELLS, UShapes};
 pub use drive_masks::DriveMasks;
 pub use expansion::obstacle_expansion;
+pub use pocket_fate::PocketFate;
 pub use soft_costs::{SoftCosts, SoftCostsError};
 pub use swept_masks::SweptMasks;
-pub use u_shapes::{Pocket, PocketFate};
+pub use u_shapes::Pocket;
 
 /// A map's obstacles, and the cells blocked in addition for a query.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,6 +1,7 @@
 //! U-shapes are closed where no distance changes (Lei 2020, sec. II.C, convex polygon detection).
 
 use super::closing::{Closing, OpenPocket};
+use super::pocket_fate::PocketFate;
 use super::pockets::Pockets;
 use crate::map::{BitGrid, Cell, DiagonalRule};
 
@@ -15,21 +16,6 @@ pub struct Pocket {
     pub n_closed: usize,
     /// Its fate, and the reason.
     pub fate: PocketFate,
-}
-
-/// The fate of a pocket, and the reason.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum PocketFate {
-    /// Closed, but for cells beside diagonal steps past its mouth.
-    Closed,
-    /// Open: the start or a goal lies in it.
-    HoldsEnd,
-    /// Open: no step leads in, so that closing it would save no search.
-    NoMouth,
-    /// Open: paths past it would become longer.
-    WouldHarm,
-    /// Open: the check whether paths past it would become longer takes too many steps.
-    TooIntricate,
 }
 
 /// Closes pockets, the largest first; returns the closed cells and all pockets.
@@ -77,8 +63,8 @@ mod tests {
     const NONE: DiagonalRule = DiagonalRule::NoObstacles;
     const RULES: [DiagonalRule; 3] = [ALWAYS, ONE, NONE];
 
-    /// What becomes of the pockets of a map, the largest first, after a look that the cells closed
-    /// are those drawn as `x`; the ends are drawn as `o`.
+    /// The fates of the pockets of a map, the largest first; checks that the closed cells are those
+    /// drawn as `x`. The ends are drawn as `o`.
     fn fates(rows: &[&str], rule: DiagonalRule) -> Vec<PocketFate> {
         let map = OccupancyGrid::from_rows(rows, 1.0).unwrap();
         let drawn = |wanted: char| -> Vec<Cell> {

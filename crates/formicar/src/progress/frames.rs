@@ -1,7 +1,7 @@
 //! Iterations of a colony kept for pictures: some of each run, however long it is.
 
 use super::{AntWays, ColonyView, Event, IterationRecord, Observer};
-use crate::map::{Cell, STEPS};
+use crate::map::Cell;
 use crate::path::GridPath;
 
 /// How often ants of an iteration went between two cells, in either direction.
@@ -147,35 +147,12 @@ impl Grid {
     fn n_cells(self) -> usize {
         self.0 * self.1
     }
-
-    /// How far a step leads, in cells counted row by row.
-    fn offset(self, step: usize) -> isize {
-        let (dx, dy) = STEPS[step];
-        dx as isize + dy as isize * self.0 as isize
-    }
-}
-
-/// Pheromone by cell from that by cell and step, eight to a cell: that of a cell is the most on a
-/// step to it.
-pub fn pheromone_by_cell(by_step: &[f32], n_cols: usize) -> Vec<f32> {
-    let n_cells = by_step.len() / 8;
-    let grid = Grid(n_cols, n_cells / n_cols.max(1));
-    let mut cells = vec![f32::NAN; n_cells];
-    for (cell, steps) in by_step.chunks_exact(8).enumerate() {
-        for (step, &tau) in steps.iter().enumerate() {
-            // Steps off the map have none.
-            match cells.get_mut(cell.wrapping_add_signed(grid.offset(step))) {
-                Some(to) if !tau.is_nan() => *to = to.max(tau),
-                _ => {}
-            }
-        }
-    }
-    cells
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::map::STEPS;
     use crate::progress::Pheromone;
 
     const WAYS: AntWays = AntWays {
@@ -235,15 +212,5 @@ mod tests {
     fn memory_is_bounded_by_frames_and_cells() {
         assert!(kept(20_000, 4).len() <= AntFrames::MAX_FRAMES + 1);
         assert!(kept(5_000, AntFrames::MAX_CELLS / 20).len() <= 21);
-    }
-
-    #[test]
-    fn a_cell_has_the_most_pheromone_of_the_steps_to_it() {
-        let mut by_step = [f32::NAN; 4 * 8];
-        // On a grid of 2 x 2: east and north-east from the first cell, south from the last.
-        (by_step[0], by_step[1], by_step[3 * 8 + 6]) = (1.0, 2.0, 3.0);
-        let by_cell = pheromone_by_cell(&by_step, 2);
-        assert!(by_cell[0].is_nan() && by_cell[2].is_nan());
-        assert_eq!((by_cell[1], by_cell[3]), (3.0, 2.0));
     }
 }

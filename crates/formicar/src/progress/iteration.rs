@@ -1,5 +1,6 @@
 //! What a colony tells of an iteration.
 
+use super::pheromone::pheromone_by_cell;
 use crate::map::Cell;
 use crate::path::GridPath;
 use schemars::JsonSchema;
@@ -111,7 +112,7 @@ impl Pheromone<'_> {
     pub fn by_cell(&self, n_cols: usize, n_rows: usize) -> Vec<f32> {
         match self {
             Self::Cells(values) => values.to_vec(),
-            Self::Steps(values) => super::pheromone_by_cell(values, n_cols),
+            Self::Steps(values) => pheromone_by_cell(values, n_cols),
             Self::Listed(cells, values) => {
                 let mut all = vec![f32::NAN; n_cols * n_rows];
                 for (&cell, &value) in cells.iter().zip(*values) {

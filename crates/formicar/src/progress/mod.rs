@@ -4,12 +4,14 @@ mod driving;
 mod frames;
 mod history;
 mod iteration;
+mod pheromone;
 mod population;
 
 pub use driving::{DriveView, DriveWay, ReachedView};
-pub use frames::{AntFrame, AntFrames, Traffic, pheromone_by_cell};
+pub use frames::{AntFrame, AntFrames, Traffic};
 pub use history::{History, Stop};
 pub use iteration::{AntWays, ColonyView, IterationRecord, Pheromone, path_of};
+pub use pheromone::pheromone_by_cell;
 pub use population::PopulationView;
 
 pub(crate) use history::iterate;

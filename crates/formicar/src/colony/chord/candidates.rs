@@ -1,7 +1,7 @@
 //! The steps among which an ant chooses, and their weights.
 
-use super::ant::ChordShared;
 use super::graph::{ChordGraph, Turn};
+use super::shared::ChordShared;
 use super::transition::Memory;
 use crate::map::Cell;
 use crate::objective::SteeringMeter;

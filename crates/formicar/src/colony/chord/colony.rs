@@ -1,9 +1,10 @@
 //! A colony whose ants step by chords: Algorithm 1 of Li 2024.
 
-use super::ant::{ChordShared, ChordWorker};
+use super::ant::ChordWorker;
 use super::config::ChordConfig;
 use super::graph::ChordGraph;
 use super::problem::ChordProblem;
+use super::shared::ChordShared;
 use crate::colony::engine::{Colony, Engine, LoopParameters};
 use crate::colony::error::RunError;
 use crate::colony::generation::{Generation, StepSpace};

@@ -19,6 +19,7 @@ mod numbered;
 mod problem;
 mod ring;
 mod safety;
+mod shared;
 mod transition;
 
 pub use colony::run_chords;

@@ -1,7 +1,7 @@
 //! One ant that drives from the start towards the goal.
 
 use super::DriveConfig;
-use super::walk::DriveShared;
+use super::shared::DriveShared;
 use crate::geometry::{Arc, Point2};
 use crate::numeric::RandomStream;
 use crate::progress::DriveWay;

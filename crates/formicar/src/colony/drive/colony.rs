@@ -1,7 +1,8 @@
 //! Generations of ants that drive: from the start until one arrives, or from a known path.
 
+use super::shared::DriveShared;
 use super::trails::Trails;
-use super::walk::{DriveShared, DriveWorker, Ways};
+use super::walk::{DriveWorker, Ways};
 use super::{DriveConfig, repair};
 use crate::colony::worker_pool::{WorkerPool, with_workers};
 use crate::geometry::{Arc, Pose2};

@@ -12,6 +12,7 @@ mod ant;
 mod colony;
 mod config;
 mod repair;
+mod shared;
 mod trails;
 mod walk;
 

@@ -2,22 +2,12 @@
 
 use super::DriveConfig;
 use super::ant::Ant;
-use super::trails::Trails;
+use super::shared::DriveShared;
 use crate::colony::worker_pool::{AntWorker, Batch};
 use crate::numeric::Seed;
 use crate::progress::DriveWay;
-use crate::search::{DriveProblem, Guide, State};
+use crate::search::DriveProblem;
 use std::ops::Range;
-
-/// Read by the ants of a generation.
-pub(super) struct DriveShared<'a> {
-    pub(super) guide: Guide<'a>,
-    pub(super) trails: Trails,
-    /// The states from which the ants start, in turn.
-    pub(super) starts: Vec<State>,
-    /// Whether the first ant to arrive ends the generation.
-    pub(super) first_wins: bool,
-}
 
 /// Two kinds of ants: of each pair the first drives forward until its last curve, the second uses
 /// both gears.
