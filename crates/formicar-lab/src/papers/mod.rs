@@ -8,6 +8,7 @@ pub mod claims;
 mod correspondence;
 mod exhibit;
 pub(crate) mod experiment;
+mod group;
 mod lei2020;
 mod li2024;
 pub(crate) mod parameters;

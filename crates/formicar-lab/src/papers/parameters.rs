@@ -1,7 +1,7 @@
 //! Parameter sheets from the tables of the library's `references`.
 
 use crate::papers::experiment::Variant;
-use crate::report::{Block, Known, ParameterSheet, Section, Source};
+use crate::report::{Known, ParameterSheet, Section, Source};
 use anyhow::Result;
 
 pub(crate) const LEI2020: &str = include_str!("../../../formicar/references/lei2020.md");
@@ -18,10 +18,7 @@ pub(crate) fn section(reference: &str, variant: &Variant) -> Result<Section> {
         .filter_map(|known| known.0.split('.').next())
         .collect();
     let sheet = ParameterSheet::new(&config, &parts, &known);
-    Ok(Section {
-        heading: "Parameters".to_owned(),
-        blocks: vec![Block::Table(sheet.table("parameters"))],
-    })
+    Ok(Section::of_table("Parameters", sheet.table("parameters")))
 }
 
 /// Where the parameters of a planner's preset come from, as the references tell: its own table,

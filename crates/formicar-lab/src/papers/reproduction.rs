@@ -120,7 +120,7 @@ fn courses_csv(runs: &[Run]) -> Result<String> {
     let plain = runs.iter().filter(|run| !run.trial.variant.contains(','));
     let rows = plain.flat_map(|run| {
         let trial = &run.trial;
-        run.course.iter().map(|moment| CourseRow {
+        run.moments.iter().map(|moment| CourseRow {
             map: &trial.map,
             variant: &trial.variant,
             seed: trial.seed,

@@ -60,16 +60,16 @@ pub struct Trial {
     pub search_ms: f64,
 }
 
-/// A run with its course.
+/// A run with its moments.
 #[derive(Clone, Debug)]
 pub(crate) struct Run {
-    /// What it came to.
+    /// Its result.
     pub(crate) trial: Trial,
-    /// How it came about.
-    pub(crate) course: Vec<Moment>,
+    /// The state after each iteration.
+    pub(crate) moments: Vec<Moment>,
 }
 
-/// What stood after an iteration; lengths in cells.
+/// The state after an iteration; lengths in cells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Moment {
     /// Iterations done.
@@ -92,7 +92,7 @@ pub(crate) struct Moment {
 struct Clock {
     begun: Instant,
     search_begun: Duration,
-    course: Vec<Moment>,
+    moments: Vec<Moment>,
 }
 
 impl Observer for Clock {
@@ -109,11 +109,11 @@ impl Clock {
     fn note(&mut self, record: &IterationRecord) {
         if record.iteration == 0 {
             // A planner that tries again begins anew.
-            self.course.clear();
+            self.moments.clear();
         }
-        let n_before = self.course.last().map_or(0, |last| last.n_ants);
+        let n_before = self.moments.last().map_or(0, |last| last.n_ants);
         let since = self.begun.elapsed().saturating_sub(self.search_begun);
-        self.course.push(Moment {
+        self.moments.push(Moment {
             iteration: record.iteration + 1,
             n_ants: n_before + u64::from(record.n_ants),
             ms: since.as_secs_f64() * 1e3,
@@ -135,7 +135,7 @@ impl Trial {
         let mut clock = Clock {
             begun,
             search_begun: Duration::ZERO,
-            course: Vec::new(),
+            moments: Vec::new(),
         };
         let outcome = planner.plan(&ground.request, Seed(seed), &mut clock)?;
         let query_ms = begun.elapsed().as_secs_f64() * 1e3;
@@ -149,7 +149,7 @@ impl Trial {
             Outcome::NotFound(_) => None,
         };
         let obstacles = ground.grid.lethal_cells();
-        let course = clock.course;
+        let moments = clock.moments;
         let trial = Self {
             map: ground.map.clone(),
             variant: variant.name.clone(),
@@ -168,23 +168,23 @@ impl Trial {
             arrived_share: arrived_share(history),
             length_m: plan.map(|plan| plan.metrics.length_m),
             min_clearance_m: plan.map(|plan| plan.certificate.min_clearance_m),
-            early_length_cells: early_length(&course, n_tenth),
-            late_spread_cells: late_spread(&course),
+            early_length_cells: early_length(&moments, n_tenth),
+            late_spread_cells: late_spread(&moments),
             query_ms,
-            search_ms: course.last().map_or(0.0, |last| last.ms),
+            search_ms: moments.last().map_or(0.0, |last| last.ms),
         };
-        Ok(Run { trial, course })
+        Ok(Run { trial, moments })
     }
 }
 
 /// The best length after so many iterations, or at the end of a shorter run.
-fn early_length(course: &[Moment], n_iterations: u32) -> Option<f64> {
-    let n_noted = course.partition_point(|moment| moment.iteration <= n_iterations);
-    course.get(n_noted.checked_sub(1)?)?.best_so_far_length
+fn early_length(moments: &[Moment], n_iterations: u32) -> Option<f64> {
+    let n_noted = moments.partition_point(|moment| moment.iteration <= n_iterations);
+    moments.get(n_noted.checked_sub(1)?)?.best_so_far_length
 }
 
-fn late_spread(course: &[Moment]) -> Option<f64> {
-    let late = course[course.len() / 2..].iter();
+fn late_spread(moments: &[Moment]) -> Option<f64> {
+    let late = moments[moments.len() / 2..].iter();
     let lengths: Vec<f64> = late.filter_map(|moment| moment.best_length).collect();
     let n = lengths.len() as f64;
     let mean = lengths.iter().sum::<f64>() / n;
@@ -257,7 +257,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn courses_are_measured() {
+    fn moments_are_measured() {
         let moment = |iteration: u32, best: f64, length: f64| Moment {
             iteration,
             n_ants: 0,
@@ -267,18 +267,18 @@ mod tests {
             mean_length: None,
             rho: 0.5,
         };
-        let course = [
+        let moments = [
             moment(1, 9.0, 9.0),
             moment(2, 7.0, 7.0),
             moment(3, 6.0, 6.0),
             moment(4, 6.0, 8.0),
         ];
-        assert_eq!(early_length(&course, 2), Some(7.0));
-        assert_eq!(early_length(&course, 9), Some(6.0));
+        assert_eq!(early_length(&moments, 2), Some(7.0));
+        assert_eq!(early_length(&moments, 9), Some(6.0));
         assert_eq!(early_length(&[], 2), None);
         // Of 6 and 8.
-        assert_eq!(late_spread(&course), Some(2.0_f64.sqrt()));
-        assert_eq!(late_spread(&course[..1]), None);
+        assert_eq!(late_spread(&moments), Some(2.0_f64.sqrt()));
+        assert_eq!(late_spread(&moments[..1]), None);
     }
 
     #[test]

@@ -53,7 +53,7 @@ pub(crate) fn ompl_logs(runs: &[Run]) -> Vec<OmplLog> {
 
 fn planner(runs: &[Run]) -> OmplPlanner {
     let run = |run: &Run| {
-        let progress = run.course.iter();
+        let progress = run.moments.iter();
         let progress = progress.filter_map(|moment| {
             let length = moment.best_so_far_length?;
             Some([1e-3 * moment.ms, length])

@@ -1,55 +1,50 @@
-//! Runs that belong together, and what stands in tables, plots and claims of them.
+//! Runs of colonies, grouped by map and variant.
 
-use crate::analysis::statistics::quantile;
 use crate::papers::claims::{Comparison, Expected};
+use crate::papers::group::{Group, Quantity, ResultRow, distinct};
 use crate::papers::trial::{Moment, Run, Trial};
-use crate::report::{BandPanel, Bands, BoxGroup, BoxPlot, Course, ScaleKind};
+use crate::report::{BoxPlot, Trend, TrendPanel, Trends};
+use formicar::render::AxisScale;
 
 /// A number of a run.
 pub(crate) type Measure = fn(&Trial) -> Option<f64>;
+
+impl ResultRow for Trial {
+    fn ground(&self) -> &str {
+        &self.map
+    }
+
+    fn seed(&self) -> u64 {
+        self.seed
+    }
+}
 
 /// All runs of an experiment.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Runs<'a>(pub(crate) &'a [Run]);
 
-/// A quantity that claims compare.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Quantity {
-    pub(crate) name: &'static str,
-    pub(crate) n_decimals: usize,
-    pub(crate) of: Measure,
-}
-
 impl<'a> Runs<'a> {
     /// The runs of a variant on a map, in the order of their seeds.
-    pub(crate) fn of(&self, map: &str, variant: &str) -> Vec<&'a Run> {
-        let belongs = |run: &&Run| run.trial.map == map && run.trial.variant == variant;
-        self.0.iter().filter(belongs).collect()
+    pub(crate) fn of<'b>(
+        &self,
+        map: &'b str,
+        variant: &'b str,
+    ) -> impl Iterator<Item = &'a Run> + use<'a, 'b> {
+        let belongs = move |run: &&Run| run.trial.map == map && run.trial.variant == variant;
+        self.0.iter().filter(belongs)
     }
 
-    pub(crate) fn trials(&self, map: &str, variant: &str) -> Vec<&'a Trial> {
-        let runs = self.of(map, variant).into_iter();
-        runs.map(|run| &run.trial).collect()
+    /// The rows of a variant on a map.
+    pub(crate) fn group(&self, map: &str, variant: &str) -> Group<'a, Trial> {
+        Group::new(self.of(map, variant).map(|run| &run.trial))
     }
 
-    pub(crate) fn values(&self, map: &str, variant: &str, of: Measure) -> Vec<f64> {
-        let trials = self.trials(map, variant).into_iter();
-        trials.filter_map(of).collect()
-    }
-
-    pub(crate) fn median(&self, map: &str, variant: &str, of: Measure) -> Option<f64> {
-        quantile(&self.values(map, variant, of), 0.5)
-    }
-
-    /// Names of variants on a map, in the order in which they ran.
-    pub(crate) fn variants(&self, map: &str) -> Vec<&'a str> {
-        let mut names: Vec<&str> = Vec::new();
-        for run in self.0.iter().filter(|run| run.trial.map == map) {
-            if !names.contains(&run.trial.variant.as_str()) {
-                names.push(&run.trial.variant);
-            }
-        }
-        names
+    /// The variants on a map, in the order in which they ran, each with its rows.
+    pub(crate) fn groups(&self, map: &str) -> Vec<(&'a str, Group<'a, Trial>)> {
+        let of_map = self.0.iter().filter(|run| run.trial.map == map);
+        let names = distinct(of_map.map(|run| run.trial.variant.as_str()));
+        let groups = names.into_iter().map(|name| (name, self.group(map, name)));
+        groups.collect()
     }
 
     /// Two variants with the same seeds.
@@ -57,69 +52,53 @@ impl<'a> Runs<'a> {
         &self,
         map: &str,
         [first, other]: [&str; 2],
-        (quantity, expected): (Quantity, Expected),
+        (quantity, expected): (&Quantity<Trial>, Expected),
     ) -> Comparison {
-        let others = self.trials(map, other);
-        let pair = |trial: &Trial| {
-            let same = others.iter().find(|other| other.seed == trial.seed)?;
-            Some([(quantity.of)(trial)?, (quantity.of)(same)?])
-        };
-        let pairs = self.trials(map, first).into_iter().filter_map(pair);
-        Comparison {
-            name: named(map, first, other),
-            quantity: quantity.name.to_owned(),
-            n_decimals: quantity.n_decimals,
-            pairs: pairs.collect(),
-            expected,
-        }
+        let name = comparison_name(map, first, other);
+        let groups = [first, other].map(|variant| self.group(map, variant));
+        groups[0].compare(&groups[1], quantity, (name, expected))
     }
 
-    /// A box per variant of a map.
-    pub(crate) fn boxes(
-        &self,
-        map: &str,
-        (caption, quantity): (&str, &str),
-        of: Measure,
-    ) -> BoxPlot {
-        let group = |name: &str| BoxGroup {
-            name: name.to_owned(),
-            values: self.values(map, name, of),
-        };
+    /// A box per variant of a map, of the lengths of the ants' best ways.
+    pub(crate) fn boxes_of_lengths(&self, map: &str, caption: &str) -> BoxPlot {
+        let groups = self.groups(map).into_iter();
         BoxPlot {
             caption: caption.to_owned(),
-            quantity: quantity.to_owned(),
-            groups: self.variants(map).into_iter().map(group).collect(),
+            quantity: "length, cells".to_owned(),
+            groups: groups
+                .map(|(name, group)| group.boxed(name, |trial| trial.length_cells))
+                .collect(),
             ..BoxPlot::default()
         }
     }
 
     /// Length of the best way so far by iteration, by ants sent out and by time.
-    pub(crate) fn convergence(&self, map: &str, variants: &[&str], caption: &str) -> Bands {
-        let course = |variant: &str, scale, x: fn(&Moment) -> f64| {
-            let runs = self.of(map, variant).into_iter();
-            let steps: Vec<Vec<[f64; 2]>> = runs.map(|run| steps(&run.course, x)).collect();
-            Course::of_runs(variant, &steps, scale)
+    pub(crate) fn convergence(&self, map: &str, variants: &[&str], caption: &str) -> Trends {
+        let trend = |variant: &str, scale, x: fn(&Moment) -> f64| {
+            let runs = self.of(map, variant);
+            let steps: Vec<Vec<[f64; 2]>> = runs.map(|run| steps(&run.moments, x)).collect();
+            Trend::of_runs(variant, &steps, scale)
         };
-        let panel = |name: &str, scale, x: fn(&Moment) -> f64| BandPanel {
+        let panel = |name: &str, scale, x: fn(&Moment) -> f64| TrendPanel {
             x: name.to_owned(),
             x_scale: scale,
-            courses: variants.iter().map(|v| course(v, scale, x)).collect(),
+            trends: variants.iter().map(|v| trend(v, scale, x)).collect(),
         };
-        Bands {
+        Trends {
             caption: caption.to_owned(),
             quantity: "best way so far, cells".to_owned(),
-            y_scale: ScaleKind::Linear,
+            y_scale: AxisScale::Linear,
             panels: vec![
-                panel("iteration", ScaleKind::Linear, |m| f64::from(m.iteration)),
-                panel("ants sent out", ScaleKind::Log, |m| m.n_ants as f64),
-                panel("time, ms", ScaleKind::Log, |m| m.ms.max(1e-3)),
+                panel("iteration", AxisScale::Linear, |m| f64::from(m.iteration)),
+                panel("ants sent out", AxisScale::Log, |m| m.n_ants as f64),
+                panel("time, ms", AxisScale::Log, |m| m.ms.max(1e-3)),
             ],
         }
     }
 }
 
-/// Who is compared with whom, and where; a variant of the first by what differs.
-fn named(map: &str, first: &str, other: &str) -> String {
+/// The map and the two that are compared; a variant of the first by its difference.
+fn comparison_name(map: &str, first: &str, other: &str) -> String {
     let variant = other.strip_prefix(first);
     match variant.and_then(|rest| rest.strip_prefix(", ")) {
         Some(what) => format!("{map}, {first} - with {what}"),
@@ -128,7 +107,7 @@ fn named(map: &str, first: &str, other: &str) -> String {
 }
 
 /// The best length after each iteration that has one.
-fn steps(course: &[Moment], x: fn(&Moment) -> f64) -> Vec<[f64; 2]> {
+fn steps(moments: &[Moment], x: fn(&Moment) -> f64) -> Vec<[f64; 2]> {
     let step = |moment: &Moment| Some([x(moment), moment.best_so_far_length?]);
-    course.iter().filter_map(step).collect()
+    moments.iter().filter_map(step).collect()
 }

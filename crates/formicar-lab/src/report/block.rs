@@ -1,10 +1,11 @@
-//! What stands in a section of a report.
+//! Blocks: the parts of a section of a report.
 
 use super::Table;
-use super::plot::{Bands, BoxPlot, PairedPlot};
+use super::plot::{BoxPlot, PairedPlot, Trends};
+use formicar::render::Picture;
 use serde::Serialize;
 
-/// What stands in a section.
+/// A part of a section.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Block {
     /// A paragraph.
@@ -18,42 +19,50 @@ pub enum Block {
     /// Differences of pairs.
     Paired(PairedPlot),
     /// Medians and quartiles along a run.
-    Bands(Bands),
+    Trends(Trends),
 }
 
 /// A picture with its caption.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Figure {
-    /// What it shows.
+    /// The words below it.
     pub caption: String,
     /// The picture as SVG.
     pub svg: String,
 }
 
+impl Figure {
+    /// A picture of the library with its caption.
+    pub fn new(caption: &str, picture: &Picture) -> Self {
+        Self {
+            caption: caption.to_owned(),
+            svg: picture.to_svg(),
+        }
+    }
+}
+
 impl Block {
-    /// The block as a picture with its caption; none of text and tables.
+    /// The block as a picture with its caption; `None` for text and tables.
     pub fn figure(&self) -> Option<Figure> {
-        let (caption, svg) = match self {
+        let svg = match self {
             Self::Text(_) | Self::Table(_) => return None,
-            Self::Figure(figure) => (&figure.caption, figure.svg.clone()),
-            Self::BoxPlot(plot) => (&plot.caption, plot.to_svg()),
-            Self::Paired(plot) => (&plot.caption, plot.to_svg()),
-            Self::Bands(plot) => (&plot.caption, plot.to_svg()),
+            Self::Figure(figure) => return Some(figure.clone()),
+            Self::BoxPlot(plot) => plot.to_svg(),
+            Self::Paired(plot) => plot.to_svg(),
+            Self::Trends(plot) => plot.to_svg(),
         };
-        Some(Figure {
-            caption: caption.clone(),
-            svg,
-        })
+        let caption = self.figure_caption()?.to_owned();
+        Some(Figure { caption, svg })
     }
 
-    /// The caption of a picture; none of text and tables.
+    /// The caption of a picture; `None` for text and tables.
     pub(super) fn figure_caption(&self) -> Option<&str> {
         match self {
             Self::Text(_) | Self::Table(_) => None,
             Self::Figure(figure) => Some(&figure.caption),
             Self::BoxPlot(plot) => Some(&plot.caption),
             Self::Paired(plot) => Some(&plot.caption),
-            Self::Bands(plot) => Some(&plot.caption),
+            Self::Trends(plot) => Some(&plot.caption),
         }
     }
 }

@@ -3,19 +3,19 @@
 use super::keys::{Keys, NamedPart, slug};
 use super::provenance::config_hash;
 use super::{Block, Field, Figure, PROSE_CHARS, Report, Section, Table, Verdict};
-use std::fmt::Write;
+use formicar::render::{Element, Markup, html_page};
 
 /// Pictures up to this width stand two in a row where two follow each other, pixels.
 const HALF_PX: f64 = 800.0;
 
 const STYLE: &str = include_str!("page.css");
 
-/// Something that is known about how results came about.
+/// A fact about the origin of results.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fact {
-    /// What it is about.
+    /// Its name.
     pub name: String,
-    /// What it is.
+    /// Its value.
     pub value: String,
 }
 
@@ -44,88 +44,92 @@ pub struct Page<'a> {
 /// follows the light or dark scheme of its reader, and prints.
 pub fn page(page: &Page) -> String {
     let report = page.report;
-    let title = escaped(&report.title);
-    let mut text = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{title}</title>\n\
-         <style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n<p class=\"intro\">{}</p>\n",
-        inline(&report.intro)
-    );
-    contents(&mut text, report);
-    let (mut keys, mut n_figures) = (Keys::of(report), 0);
-    for (i, section) in report.sections.iter().enumerate() {
-        write_section(&mut text, (i, section), &mut keys, &mut n_figures);
-    }
-    provenance(&mut text, page);
-    text + "</main>\n</body>\n</html>\n"
-}
-
-fn contents(text: &mut String, report: &Report) {
-    text.push_str("<nav aria-label=\"Contents\"><ol>\n");
-    for (i, section) in report.sections.iter().enumerate() {
-        let heading = inline(&section.heading);
-        let _ = writeln!(
-            text,
-            "<li><a href=\"#section-{}\">{heading}</a></li>",
-            i + 1
-        );
-    }
-    text.push_str("<li><a href=\"#provenance\">Provenance</a></li>\n</ol></nav>\n");
-}
-
-fn write_section(
-    text: &mut String,
-    (i, section): (usize, &Section),
-    keys: &mut Keys,
-    n_figures: &mut usize,
-) {
-    let heading = inline(&section.heading);
-    let _ = writeln!(
-        text,
-        "<section id=\"section-{}\">\n<h2>{heading}</h2>",
-        i + 1
-    );
-    let figures: Vec<Option<Figure>> = section.blocks.iter().map(Block::figure).collect();
-    let is_narrow: Vec<bool> = figures
-        .iter()
-        .map(|figure| is_narrow(figure.as_ref()))
-        .collect();
-    for (i, (block, figure)) in section.blocks.iter().zip(&figures).enumerate() {
-        let is_beside = |j: Option<usize>| j.and_then(|j| is_narrow.get(j)) == Some(&true);
-        let has_neighbor = is_beside(i.checked_sub(1)) || is_beside(Some(i + 1));
-        let class = if is_narrow[i] && has_neighbor {
-            " class=\"half\""
-        } else {
-            ""
+    html_page(&report.title, STYLE, |html| {
+        html.raw("<main>\n");
+        html.words(&Element::new("h1"), &report.title);
+        html.end_line();
+        prose_line(html, &Element::of_class("p", "intro"), &report.intro);
+        write_contents(html, report);
+        let mut writer = SectionWriter {
+            html,
+            keys: Keys::of(report),
+            n_figures: 0,
         };
-        match (block, figure) {
-            (Block::Table(table), _) => {
-                let named = keys.name(table);
-                write_table(text, table, &named);
-            }
-            (Block::Text(words), _) => {
-                let _ = writeln!(text, "<p>{}</p>", inline(words));
-            }
-            (_, figure) => {
-                *n_figures += usize::from(figure.is_some());
-                write_figure(text, figure.as_ref(), (*n_figures, class));
+        for (i, section) in report.sections.iter().enumerate() {
+            writer.write(i + 1, section);
+        }
+        write_provenance(html, page);
+        html.raw("</main>\n");
+    })
+}
+
+/// An element around words on a line of its own.
+fn prose_line(html: &mut Markup, element: &Element, words: &str) {
+    html.within(element, |inner| inner.prose(words));
+    html.end_line();
+}
+
+fn write_contents(html: &mut Markup, report: &Report) {
+    html.raw("<nav aria-label=\"Contents\"><ol>\n");
+    let sections = report.sections.iter().enumerate();
+    let sections = sections.map(|(i, s)| (format!("#section-{}", i + 1), s.heading.as_str()));
+    let last = (String::from("#provenance"), "Provenance");
+    for (target, heading) in sections.chain([last]) {
+        html.within(&Element::new("li"), |item| {
+            let link = Element::new("a").text("href", &target);
+            item.within(&link, |link| link.prose(heading));
+        });
+        html.end_line();
+    }
+    html.raw("</ol></nav>\n");
+}
+
+/// Writes sections one after another.
+struct SectionWriter<'a> {
+    html: &'a mut Markup,
+    keys: Keys,
+    n_figures: usize,
+}
+
+impl SectionWriter<'_> {
+    fn write(&mut self, number: usize, section: &Section) {
+        let html = &mut *self.html;
+        html.raw(&format!("<section id=\"section-{number}\">\n"));
+        prose_line(html, &Element::new("h2"), &section.heading);
+        let figures: Vec<Option<Figure>> = section.blocks.iter().map(Block::figure).collect();
+        let is_narrow: Vec<bool> = figures.iter().map(|f| is_narrow(f.as_ref())).collect();
+        for (i, (block, figure)) in section.blocks.iter().zip(&figures).enumerate() {
+            let is_beside = |j: Option<usize>| j.and_then(|j| is_narrow.get(j)) == Some(&true);
+            let has_neighbor = is_beside(i.checked_sub(1)) || is_beside(Some(i + 1));
+            match (block, figure) {
+                (Block::Table(table), _) => {
+                    let named = self.keys.name(table);
+                    write_table(self.html, table, &named);
+                }
+                (Block::Text(words), _) => prose_line(self.html, &Element::new("p"), words),
+                (_, None) => {}
+                (_, Some(figure)) if is_narrow[i] && has_neighbor => {
+                    self.figure(&Element::of_class("figure", "half"), figure);
+                }
+                (_, Some(figure)) => self.figure(&Element::new("figure"), figure),
             }
         }
+        self.html.raw("</section>\n");
     }
-    text.push_str("</section>\n");
-}
 
-fn write_figure(text: &mut String, figure: Option<&Figure>, (number, class): (usize, &str)) {
-    let Some(figure) = figure else {
-        return;
-    };
-    let caption = inline(&figure.caption);
-    let _ = writeln!(
-        text,
-        "<figure{class}>\n{}<figcaption><b>Figure {number}.</b> {caption}</figcaption>\n</figure>",
-        figure.svg
-    );
+    fn figure(&mut self, element: &Element, figure: &Figure) {
+        self.n_figures += 1;
+        let number = self.n_figures;
+        self.html.within(element, |html| {
+            html.raw(&format!("\n{}", figure.svg));
+            html.within(&Element::new("figcaption"), |caption| {
+                caption.raw(&format!("<b>Figure {number}.</b> "));
+                caption.prose(&figure.caption);
+            });
+            html.end_line();
+        });
+        self.html.end_line();
+    }
 }
 
 /// Whether a picture is narrow enough to stand beside another such.
@@ -137,133 +141,127 @@ fn is_narrow(figure: Option<&Figure>) -> bool {
     width_px.is_some_and(|width_px| width_px <= HALF_PX)
 }
 
-fn write_table(text: &mut String, table: &Table, named: &[Vec<Vec<NamedPart>>]) {
-    let (key, caption) = (slug(&table.key), inline(&table.caption));
-    let _ = match (table.is_folded, caption.is_empty()) {
-        (true, _) => writeln!(
-            text,
-            "<details class=\"sheet\"><summary id=\"about-{key}\">{caption}</summary>"
-        ),
-        (false, true) => Ok(()),
-        (false, false) => writeln!(
-            text,
-            "<p class=\"caption\" id=\"about-{key}\">{caption}</p>"
-        ),
-    };
-    write_rows(text, table, (&key, named));
+/// The named numbers of a table, by row and field.
+type NamedRows = [Vec<Vec<NamedPart>>];
+
+fn write_table(html: &mut Markup, table: &Table, named: &NamedRows) {
+    let about = format!("about-{}", slug(&table.key));
     if table.is_folded {
-        text.push_str("</details>\n");
+        html.raw("<details class=\"sheet\">");
+        prose_line(
+            html,
+            &Element::new("summary").text("id", &about),
+            &table.caption,
+        );
+    } else if !table.caption.is_empty() {
+        let caption = Element::of_class("p", "caption").text("id", &about);
+        prose_line(html, &caption, &table.caption);
+    }
+    html.within(&Element::of_class("div", "table"), |html| {
+        let element = Element::new("table")
+            .text("id", &format!("table-{}", slug(&table.key)))
+            .text("aria-describedby", &about);
+        html.within(&element, |html| write_rows(html, table, named));
+    });
+    html.end_line();
+    if table.is_folded {
+        html.raw("</details>\n");
     }
 }
 
-fn write_rows(text: &mut String, table: &Table, (key, named): (&str, &[Vec<Vec<NamedPart>>])) {
-    let _ = writeln!(
-        text,
-        "<div class=\"table\"><table id=\"table-{key}\" aria-describedby=\"about-{key}\">"
-    );
-    text.push_str("<thead><tr>");
+fn write_rows(html: &mut Markup, table: &Table, named: &NamedRows) {
+    html.raw("\n<thead><tr>");
     for (i, name) in table.heading.iter().enumerate() {
-        let fields = table.rows.iter().filter_map(|row| row.get(i));
-        let is_words = |field: &Field| matches!(field, Field::Words(_) | Field::Verdict(_));
-        let class = if { fields }.all(is_words) {
-            " class=\"words\""
+        let mut fields = table.rows.iter().filter_map(|row| row.get(i));
+        let heading = Element::new("th").text("scope", "col");
+        let heading = if fields.all(|f| matches!(f, Field::Words(_) | Field::Verdict(_))) {
+            heading.text("class", "words")
         } else {
-            ""
+            heading
         };
-        let _ = write!(text, "<th scope=\"col\"{class}>{}</th>", inline(name));
+        html.within(&heading, |html| html.prose(name));
     }
-    text.push_str("</tr></thead>\n<tbody>\n");
+    html.raw("</tr></thead>\n<tbody>\n");
     for (row, named) in table.rows.iter().zip(named) {
-        text.push_str("<tr>");
+        html.raw("<tr>");
         for (i, (field, parts)) in row.iter().zip(named).enumerate() {
-            let numbers: Vec<String> = parts.iter().map(number).collect();
-            let numbers: Vec<&str> = numbers.iter().map(String::as_str).collect();
-            let laid_out = field.laid_out(&numbers);
-            let inner = match field {
-                Field::Verdict(verdict) => verdict_mark(*verdict),
-                _ if parts.is_empty() => inline(&laid_out),
-                _ => laid_out,
+            let cell = match i {
+                0 => Element::new("th").text("scope", "row"),
+                _ => Element::new("td"),
             };
-            let class = class(field);
-            let _ = match i {
-                0 => write!(text, "<th scope=\"row\"{class}>{inner}</th>"),
-                _ => write!(text, "<td{class}>{inner}</td>"),
-            };
+            html.within(&with_class(cell, field), |html| {
+                write_field(html, field, parts);
+            });
         }
-        text.push_str("</tr>\n");
+        html.raw("</tr>\n");
     }
-    text.push_str("</tbody></table></div>\n");
+    html.raw("</tbody>");
 }
 
 /// Words are set from the left, and long ones in several lines.
-fn class(field: &Field) -> &'static str {
+fn with_class(cell: Element, field: &Field) -> Element {
     match field {
-        Field::Words(words) if words.chars().count() > PROSE_CHARS => " class=\"prose\"",
-        Field::Words(_) | Field::Verdict(_) => " class=\"words\"",
-        _ => "",
+        Field::Words(words) if words.chars().count() > PROSE_CHARS => cell.text("class", "prose"),
+        Field::Words(_) | Field::Verdict(_) => cell.text("class", "words"),
+        _ => cell,
     }
 }
 
-fn verdict_mark(verdict: Verdict) -> String {
-    let (class, mark, name) = (verdict.class(), verdict.mark(), verdict.name());
-    format!(
-        "<span class=\"verdict {class}\"><span aria-hidden=\"true\">{mark}</span> {name}</span>"
-    )
+fn write_field(html: &mut Markup, field: &Field, parts: &[NamedPart]) {
+    if let Field::Verdict(verdict) = field {
+        return write_verdict(html, *verdict);
+    }
+    let numbers: Vec<String> = parts.iter().map(number).collect();
+    let numbers: Vec<&str> = numbers.iter().map(String::as_str).collect();
+    let laid_out = field.laid_out(&numbers);
+    if parts.is_empty() {
+        html.prose(&laid_out);
+    } else {
+        html.raw(&laid_out);
+    }
+}
+
+fn write_verdict(html: &mut Markup, verdict: Verdict) {
+    let class = format!("verdict {}", verdict.class());
+    html.within(&Element::of_class("span", &class), |html| {
+        let mark = Element::new("span").text("aria-hidden", "true");
+        html.words(&mark, verdict.mark());
+        html.text(&format!(" {}", verdict.name()));
+    });
 }
 
 /// A number with its name, for whoever looks for it.
 fn number(part: &NamedPart) -> String {
-    format!(
-        "<data value=\"{}\">{}</data>",
-        part.key,
-        escaped(&part.text)
-    )
+    let mut html = Markup::default();
+    html.words(&Element::new("data").text("value", &part.key), &part.text);
+    html.as_str().to_owned()
 }
 
-fn provenance(text: &mut String, page: &Page) {
-    text.push_str("<section id=\"provenance\">\n<h2>Provenance</h2>\n<dl>\n");
+fn write_provenance(html: &mut Markup, page: &Page) {
+    html.raw("<section id=\"provenance\">\n<h2>Provenance</h2>\n<dl>\n");
     for fact in page.facts {
-        let (name, value) = (inline(&fact.name), inline(&fact.value));
-        let _ = writeln!(text, "<dt>{name}</dt><dd>{value}</dd>");
+        html.within(&Element::new("dt"), |html| html.prose(&fact.name));
+        prose_line(html, &Element::new("dd"), &fact.value);
     }
-    text.push_str("</dl>\n");
+    html.raw("</dl>\n");
     if !page.configs.is_empty() {
-        text.push_str("<h3>Configurations</h3>\n");
+        html.raw("<h3>Configurations</h3>\n");
     }
     for config in page.configs {
-        let (name, value) = (inline(&config.name), escaped(&config.value));
-        let _ = writeln!(
-            text,
-            "<details><summary>{name} <code class=\"hash\">{}</code></summary><pre>{value}</pre></details>",
-            config_hash(&config.value)
-        );
+        html.within(&Element::new("details"), |html| {
+            html.within(&Element::new("summary"), |html| {
+                html.prose(&config.name);
+                html.text(" ");
+                html.words(
+                    &Element::of_class("code", "hash"),
+                    &config_hash(&config.value),
+                );
+            });
+            html.words(&Element::new("pre"), &config.value);
+        });
+        html.end_line();
     }
-    text.push_str("</section>\n");
-}
-
-/// Words for HTML; those between backticks as code.
-fn inline(words: &str) -> String {
-    let mut text = String::new();
-    for (i, part) in words.split('`').enumerate() {
-        let part = escaped(part);
-        let _ = match i % 2 {
-            0 => write!(text, "{part}"),
-            _ => write!(text, "<code>{part}</code>"),
-        };
-    }
-    text
-}
-
-fn escaped(words: &str) -> String {
-    let marks = [
-        ("&", "&amp;"),
-        ("<", "&lt;"),
-        (">", "&gt;"),
-        ("\"", "&quot;"),
-    ];
-    marks
-        .iter()
-        .fold(words.to_owned(), |text, (from, to)| text.replace(from, to))
+    html.raw("</section>\n");
 }
 
 #[cfg(test)]

@@ -46,7 +46,7 @@ fn block(block: &Block) -> Value {
         Block::Figure(figure) => json!({ "kind": "figure", "caption": figure.caption }),
         Block::BoxPlot(plot) => json!({ "kind": "box_plot", "plot": plot }),
         Block::Paired(plot) => json!({ "kind": "paired", "plot": plot }),
-        Block::Bands(plot) => json!({ "kind": "bands", "plot": plot }),
+        Block::Trends(plot) => json!({ "kind": "bands", "plot": plot }),
     }
 }
 

@@ -28,7 +28,7 @@ pub use ompl_log::{OmplLog, OmplPlanner, OmplRun, Property, PropertyKind};
 pub use overlay::{Overlay, OverlayPath, strips};
 pub(crate) use parameters::leaves;
 pub use parameters::{Known, Parameter, ParameterSheet, Source};
-pub use plot::{BandPanel, Bands, BoxGroup, BoxPlot, Course, PairedPanel, PairedPlot, ScaleKind};
+pub use plot::{BoxGroup, BoxPlot, PairedPanel, PairedPlot, Trend, TrendPanel, Trends};
 pub use provenance::config_hash;
 pub use table::{Row, Table};
 pub use verdict::Verdict;
@@ -59,12 +59,17 @@ pub struct Section {
 }
 
 impl Section {
+    /// A section of some blocks.
+    pub fn new(heading: impl Into<String>, blocks: Vec<Block>) -> Self {
+        Self {
+            heading: heading.into(),
+            blocks,
+        }
+    }
+
     /// A section of one table.
     pub fn of_table(heading: &str, table: Table) -> Self {
-        Self {
-            heading: heading.to_owned(),
-            blocks: vec![Block::Table(table)],
-        }
+        Self::new(heading, vec![Block::Table(table)])
     }
 }
 

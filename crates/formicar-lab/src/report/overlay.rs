@@ -89,10 +89,7 @@ impl Overlay<'_> {
             scene: Some(scene),
             ..Picture::default()
         };
-        Figure {
-            caption: self.caption.clone(),
-            svg: picture.to_svg(),
-        }
+        Figure::new(&self.caption, &picture)
     }
 }
 
@@ -116,10 +113,7 @@ pub fn strips(
         charts: strip_charts(&points.collect::<Vec<_>>(), vehicle),
         ..Picture::default()
     };
-    Figure {
-        caption: caption.to_owned(),
-        svg: picture.to_svg(),
-    }
+    Figure::new(caption, &picture)
 }
 
 #[cfg(test)]

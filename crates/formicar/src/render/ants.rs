@@ -2,9 +2,10 @@
 
 use super::Scene;
 use super::legend::{Dot, Swatch};
+use super::markup::Element;
 use super::palette::{self, Color};
 use super::style::{Dash, LineStyle};
-use super::svg::{Element, PathData};
+use super::svg::PathData;
 use super::view::View;
 use crate::geometry::Point2;
 use crate::map::Cell;

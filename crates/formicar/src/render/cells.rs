@@ -1,7 +1,8 @@
 //! A layer of cells: outlines of merged rectangles on small maps, an embedded image on large ones.
 
+use super::markup::Element;
 use super::palette::Color;
-use super::svg::{Element, PathData, Svg};
+use super::svg::{PathData, Svg};
 use super::view::View;
 use crate::geometry::Point2;
 use crate::map::GridFrame;

@@ -1,6 +1,6 @@
 //! The picture of a colony: pheromone, ants and nodes on the map, and how it converged.
 
-use super::convergence::{convergence_charts, costs_up_to};
+use super::chart::{convergence_charts, costs_up_to};
 use super::palette::{self, Color};
 use super::style::{CellStyle, Dash, LineStyle};
 use super::view::frame_bounds;

@@ -1,8 +1,7 @@
 //! The picture of a simulated drive: map, planned and driven path, swept ground, wheels and errors.
 
-use super::chart::{Axis, Chart, Limit, Series};
+use super::chart::{Axis, Chart, Limit, Series, both_sides, reverse_stretches, stacked};
 use super::palette;
-use super::strips::{both_sides, reverse_stretches, stacked};
 use super::style::{Dash, Layout, LineStyle};
 use super::{Picture, PlanPicture, Scene, plan_picture_in};
 use crate::geometry::Point2;
@@ -112,6 +111,7 @@ fn strip(trace: &[TracePoint], (title, unit): (&str, &str), series: Vec<Series>)
         x: Axis {
             label: String::new(),
             range: (duration_s > 0.0).then_some((0.0, duration_s)),
+            ..Axis::default()
         },
         y: Axis::named(unit),
         bands: reverse_stretches(trace.iter().map(|p| (p.t_s, p.direction))),
@@ -162,5 +162,6 @@ fn around_zero(unit: &str, series: &Series, least: f64) -> Axis {
     Axis {
         label: unit.to_owned(),
         range: Some((-1.08 * most, 1.08 * most)),
+        ..Axis::default()
     }
 }

@@ -1,8 +1,9 @@
 //! Labels on a map, each put where it hides least.
 
 use super::lettering::Lettering;
+use super::markup::Element;
 use super::palette::{Color, PAGE};
-use super::svg::{Element, Svg};
+use super::svg::Svg;
 use crate::geometry::Point2;
 
 const SIZE_PX: f64 = 15.0;

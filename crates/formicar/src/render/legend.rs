@@ -1,9 +1,10 @@
 //! The row under a scene: scale bar, then what each mark means.
 
 use super::lettering::{Anchor, Lettering};
+use super::markup::Element;
 use super::palette::{self, Color};
 use super::style::Dash;
-use super::svg::{Element, Svg};
+use super::svg::Svg;
 use super::ticks;
 use crate::geometry::Point2;
 
@@ -50,6 +51,10 @@ impl Legend {
         if !label.is_empty() && self.entries.iter().all(|(known, _)| known != label) {
             self.entries.push((label.to_owned(), swatch));
         }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.entries.is_empty()
     }
 
     /// The height it needs at a width, the first line starting `indent_px` further right.
@@ -108,12 +113,7 @@ impl Swatch {
             }
             Self::Line(color, dash) => {
                 let line = Element::line(left, left + Point2::new(SWATCH_PX, 0.0)).pen(color, 2.6);
-                svg.add(&match dash.pattern() {
-                    Some(p) => line
-                        .text("stroke-dasharray", p)
-                        .text("stroke-linecap", "butt"),
-                    None => line,
-                });
+                svg.add(&line.dashed(dash));
             }
             Self::Dot(dot) => svg.add(&dot.at(center)),
             Self::Ring => svg.add(&Element::circle(center, 6.5).pen(palette::LIMIT, 2.2)),

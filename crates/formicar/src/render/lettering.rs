@@ -1,7 +1,8 @@
-//! Text as strokes: a small round technical alphabet of our own, the same on every machine.
+//! Text: strokes of a small round alphabet, the same on every machine, or the reader's font.
 
+use super::markup::Element;
 use super::palette::{Color, PAGE};
-use super::svg::{Element, PathData, Svg};
+use super::svg::{Letters, PathData, Svg};
 use crate::geometry::Point2;
 
 /// Gap between letters, in hundredths of the size.
@@ -26,12 +27,15 @@ pub(super) struct Lettering {
 }
 
 impl Lettering {
+    /// Stroke width of plain letters.
+    const PLAIN: f64 = 8.5;
+
     pub(super) const fn new(size_px: f64, color: Color) -> Self {
         Self {
             size_px,
             color,
             anchor: Anchor::Start,
-            weight: 8.5,
+            weight: Self::PLAIN,
         }
     }
 
@@ -54,18 +58,29 @@ impl Lettering {
 
     /// Writes a text with its base line at a point.
     pub(super) fn write(&self, svg: &mut Svg, at: Point2, text: &str) {
-        if !text.is_empty() {
-            let element = self.strokes(at, text).text("aria-label", text);
-            svg.add(&element.pen(self.color, self.weight));
+        match svg.letters {
+            _ if text.is_empty() => {}
+            Letters::Strokes => {
+                let element = self.strokes(at, text).text("aria-label", text);
+                svg.add(&element.pen(self.color, self.weight));
+            }
+            Letters::Font => svg.words(&self.font(at), text),
         }
     }
 
     /// Writes a text with the page shining around it, to be read on any ground.
     pub(super) fn write_with_halo(&self, svg: &mut Svg, at: Point2, text: &str) {
-        if !text.is_empty() {
-            let halo = self.strokes(at, text).pen(PAGE, self.weight + 32.0);
-            svg.add(&halo.text("stroke-opacity", "0.85"));
-            self.write(svg, at, text);
+        match svg.letters {
+            _ if text.is_empty() => {}
+            Letters::Strokes => {
+                let halo = self.strokes(at, text).pen(PAGE, self.weight + 32.0);
+                svg.add(&halo.text("stroke-opacity", "0.85"));
+                self.write(svg, at, text);
+            }
+            Letters::Font => {
+                let halo = self.font(at).pen(PAGE, 0.3 * self.size_px);
+                svg.words(&halo.text("paint-order", "stroke"), text);
+            }
         }
     }
 
@@ -80,6 +95,26 @@ impl Lettering {
             }
         }
         lines
+    }
+
+    /// A text element with its base line at a point.
+    fn font(&self, at: Point2) -> Element {
+        let anchor = match self.anchor {
+            Anchor::Start => "start",
+            Anchor::Middle => "middle",
+            Anchor::End => "end",
+        };
+        let element = Element::new("text")
+            .number("x", at.x)
+            .number("y", at.y)
+            .number("font-size", self.size_px)
+            .text("text-anchor", anchor)
+            .fill(self.color);
+        if self.weight > Self::PLAIN {
+            element.text("font-weight", "600")
+        } else {
+            element
+        }
     }
 
     fn strokes(&self, at: Point2, text: &str) -> Element {

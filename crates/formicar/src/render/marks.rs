@@ -2,9 +2,10 @@
 
 use super::Scene;
 use super::legend::{Dot, Swatch};
+use super::markup::Element;
 use super::palette::{self, Color};
 use super::style::{Dash, PoseMark, clearance_label};
-use super::svg::{Element, PathData};
+use super::svg::PathData;
 use super::view::View;
 use crate::geometry::{Point2, Pose2};
 use crate::path::{CurvePath, CurveSegment, Direction, PathPose};
@@ -41,12 +42,7 @@ impl Scene {
             let color = gear_color(direction);
             for gear in gears().filter(|gear| gear[0].direction == direction) {
                 let line = Element::path(self.arcs(gear)).pen(color, 2.6);
-                self.body.add(&match dash.pattern() {
-                    Some(p) => line
-                        .text("stroke-dasharray", p)
-                        .text("stroke-linecap", "butt"),
-                    None => line,
-                });
+                self.body.add(&line.dashed(dash));
                 self.legend.add(label, Swatch::Line(color, dash));
             }
         }

@@ -10,7 +10,6 @@ mod ants;
 mod cells;
 mod chart;
 mod colony;
-mod convergence;
 mod drive;
 mod focus;
 #[cfg(feature = "gif-pictures")]
@@ -20,34 +19,35 @@ mod labels;
 mod legend;
 mod lettering;
 mod marks;
+mod markup;
 pub mod palette;
 mod panel;
 mod picture;
 mod plan;
-mod plot;
 #[cfg(feature = "png-pictures")]
 mod png;
 #[cfg(feature = "gif-pictures")]
 mod quantize;
 mod scene;
-mod strips;
 mod style;
 mod svg;
 mod ticks;
 mod view;
 
 pub use answer::{AnswerPicture, answer_picture};
-pub use chart::{Axis, Band, Chart, Limit, Ribbon, SERIES_COLORS, Series, Side};
+pub use chart::{
+    Axis, AxisScale, Band, BoxRow, Chart, ChartGrid, DotFill, Dots, Limit, ProfilePoint, Ribbon,
+    SERIES_COLORS, SERIES_LOOKS, Series, Side, YRange, convergence_charts, strip_charts,
+};
 pub use colony::{ColonyPicture, colony_film, colony_picture};
-pub use convergence::convergence_charts;
 pub use drive::{DrivePicture, drive_charts, drive_picture};
 #[cfg(feature = "gif-pictures")]
 pub use gif::to_gif;
+pub use markup::{Element, Markup, escape, html_page};
 pub use palette::Color;
 pub use picture::Picture;
 pub use plan::{PlanPicture, plan_picture, plan_picture_in};
 #[cfg(feature = "png-pictures")]
 pub use png::RenderError;
 pub use scene::Scene;
-pub use strips::{ProfilePoint, strip_charts};
 pub use style::{CellStyle, Dash, Layout, LineStyle, PoseMark};

@@ -3,8 +3,9 @@
 use super::Scene;
 use super::legend::{self, scale_bar};
 use super::lettering::{Anchor, Lettering};
+use super::markup::Element;
 use super::palette;
-use super::svg::{Element, Svg};
+use super::svg::Svg;
 use super::ticks;
 use crate::geometry::Point2;
 

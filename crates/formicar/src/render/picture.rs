@@ -6,7 +6,7 @@ use super::lettering::Lettering;
 use super::palette;
 use super::panel::LEFT_PX;
 use super::style::Layout;
-use super::svg::{Element, Svg};
+use super::svg::Svg;
 use crate::geometry::Point2;
 
 const GAP_PX: f64 = 26.0;
@@ -43,25 +43,7 @@ impl Picture {
     pub fn to_svg(&self) -> String {
         let mut body = Svg::default();
         let size = self.draw(&mut body);
-        let root = Element::new("svg")
-            .text("xmlns", "http://www.w3.org/2000/svg")
-            .number("width", size.x.ceil())
-            .number("height", size.y.ceil())
-            .text(
-                "viewBox",
-                &format!("0 0 {} {}", size.x.ceil(), size.y.ceil()),
-            )
-            .text("fill", "none")
-            .text("stroke-linecap", "round")
-            .text("stroke-linejoin", "round");
-        let mut page = Svg::default();
-        page.describe("title", &self.title);
-        page.describe("desc", &self.caption);
-        page.add(&Element::rectangle(Point2::default(), size).fill(palette::PAGE));
-        page.append(&body);
-        let mut document = Svg::default();
-        document.wrap(&root, &page);
-        document.as_str().to_owned()
+        body.document(size, &self.title, &self.caption)
     }
 
     /// Width and height of the page in pixels, as the SVG states them.

@@ -22,6 +22,8 @@ pub enum Dash {
     Dashed,
     /// Short strokes.
     Dotted,
+    /// Long and short strokes in turn.
+    DashDotted,
 }
 
 impl Dash {
@@ -31,6 +33,7 @@ impl Dash {
             Self::Solid => None,
             Self::Dashed => Some("7 4"),
             Self::Dotted => Some("2 3.5"),
+            Self::DashDotted => Some("9 3 2 3"),
         }
     }
 }

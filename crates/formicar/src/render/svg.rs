@@ -1,65 +1,92 @@
-//! The drawing core: SVG elements with escaped text and short numbers.
+//! The drawing core: SVG elements, outlines and text.
 
-use super::palette::Color;
+use super::markup::{Element, Markup, write_number};
+use super::palette::{Color, PAGE};
+use super::style::Dash;
 use crate::geometry::Point2;
-use std::fmt::Write;
 
-/// Part of an SVG document: elements in painting order.
+/// How words are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Letters {
+    /// As strokes: the same on every machine, and no font is needed.
+    #[default]
+    Strokes,
+    /// As text in the reader's font, which a browser can search.
+    Font,
+}
+
+/// Part of an SVG document: elements in painting order. Elements with a number that is not finite
+/// are left out.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Svg {
-    text: String,
+    body: Markup,
+    pub(super) letters: Letters,
 }
 
 impl Svg {
-    /// Appends an element; one with a number that is not finite is left out.
-    pub(super) fn add(&mut self, element: &Element) {
-        if element.finite {
-            let (name, attributes) = (element.name, &element.attributes);
-            let _ = writeln!(self.text, "<{name}{attributes}/>");
+    /// A part whose words are drawn in a way.
+    pub(super) fn with_letters(letters: Letters) -> Self {
+        Self {
+            letters,
+            ..Self::default()
         }
     }
 
-    /// Appends an element around others; left out as a whole where `element` is.
+    /// Appends an element.
+    pub(super) fn add(&mut self, element: &Element) {
+        self.body.add(element);
+    }
+
+    /// Appends an element around others.
     pub(super) fn wrap(&mut self, element: &Element, inner: &Self) {
-        if element.finite {
-            let (name, attributes) = (element.name, &element.attributes);
-            let _ = writeln!(self.text, "<{name}{attributes}>\n{}</{name}>", inner.text);
-        }
+        self.body.wrap(element, &inner.body);
+    }
+
+    /// Appends an element around words.
+    pub(super) fn words(&mut self, element: &Element, words: &str) {
+        self.body.words(element, words);
+        self.body.end_line();
     }
 
     /// Appends everything of another part.
     pub(super) fn append(&mut self, other: &Self) {
-        self.text.push_str(&other.text);
+        self.body.raw(other.body.as_str());
     }
 
-    /// Appends text that every reader of the document sees, without drawing it.
-    pub(super) fn describe(&mut self, name: &'static str, words: &str) {
-        let _ = writeln!(self.text, "<{name}>{}</{name}>", escaped(words));
+    /// The elements as a document on a page of a size. `title` and `description` are read out, not
+    /// drawn.
+    pub(super) fn document(&self, size: Point2, title: &str, description: &str) -> String {
+        let (width_px, height_px) = (size.x.ceil(), size.y.ceil());
+        let root = Element::new("svg")
+            .text("xmlns", "http://www.w3.org/2000/svg")
+            .number("width", width_px)
+            .number("height", height_px)
+            .text("viewBox", &format!("0 0 {width_px} {height_px}"))
+            .text("fill", "none")
+            .text("stroke-linecap", "round")
+            .text("stroke-linejoin", "round");
+        let root = match self.letters {
+            Letters::Strokes => root,
+            Letters::Font => root.text("font-family", "system-ui, sans-serif"),
+        };
+        let mut page = Self::default();
+        page.words(&Element::new("title"), title);
+        page.words(&Element::new("desc"), description);
+        page.add(&Element::rectangle(Point2::default(), size).fill(PAGE));
+        page.append(self);
+        let mut document = Markup::default();
+        document.wrap(&root, &page.body);
+        document.as_str().to_owned()
     }
 
     /// The elements as text.
+    #[cfg(test)]
     pub(super) fn as_str(&self) -> &str {
-        &self.text
+        self.body.as_str()
     }
-}
-
-/// One element before it is appended.
-#[derive(Clone, Debug)]
-pub(super) struct Element {
-    name: &'static str,
-    attributes: String,
-    finite: bool,
 }
 
 impl Element {
-    pub(super) fn new(name: &'static str) -> Self {
-        Self {
-            name,
-            attributes: String::new(),
-            finite: true,
-        }
-    }
-
     /// A disc or ring.
     pub(super) fn circle(center: Point2, radius_px: f64) -> Self {
         Self::new("circle")
@@ -88,24 +115,6 @@ impl Element {
         Self::new("path").text("d", &data)
     }
 
-    /// The same attributes under another name.
-    pub(super) fn rename(self, name: &'static str) -> Self {
-        Self { name, ..self }
-    }
-
-    pub(super) fn number(mut self, name: &str, value: f64) -> Self {
-        self.finite &= value.is_finite();
-        let _ = write!(self.attributes, " {name}=\"");
-        write_number(&mut self.attributes, value);
-        self.attributes.push('"');
-        self
-    }
-
-    pub(super) fn text(mut self, name: &str, value: &str) -> Self {
-        let _ = write!(self.attributes, " {name}=\"{}\"", escaped(value));
-        self
-    }
-
     pub(super) fn fill(self, color: Color) -> Self {
         self.text("fill", &color.to_string())
     }
@@ -115,10 +124,18 @@ impl Element {
             .number("stroke-width", width_px)
     }
 
+    pub(super) fn dashed(self, dash: Dash) -> Self {
+        match dash.pattern() {
+            None => self,
+            Some(pattern) => self
+                .text("stroke-dasharray", pattern)
+                .text("stroke-linecap", "butt"),
+        }
+    }
+
     /// A linear map of the element: the images of both unit vectors, and of the origin.
-    pub(super) fn matrix(mut self, x: Point2, y: Point2, origin: Point2) -> Self {
+    pub(super) fn matrix(self, x: Point2, y: Point2, origin: Point2) -> Self {
         let numbers = [x.x, x.y, y.x, y.y, origin.x, origin.y];
-        self.finite &= numbers.iter().all(|n| n.is_finite());
         let words = numbers.map(|n| {
             let digits = format!("{n:.6}");
             digits
@@ -126,7 +143,8 @@ impl Element {
                 .trim_end_matches('.')
                 .to_owned()
         });
-        self.text("transform", &format!("matrix({})", words.join(" ")))
+        self.only_if(numbers.iter().all(|n| n.is_finite()))
+            .text("transform", &format!("matrix({})", words.join(" ")))
     }
 }
 
@@ -197,59 +215,9 @@ impl PathData {
     }
 }
 
-/// Writes a number with at most two decimals; far beyond any page, it stops at a million.
-fn write_number(out: &mut String, value: f64) {
-    let hundredths = (value.clamp(-1e6, 1e6) * 100.0).round() as i64;
-    let sign = if hundredths < 0 { "-" } else { "" };
-    let (whole, rest) = (hundredths.abs() / 100, hundredths.abs() % 100);
-    let _ = match (rest, rest % 10) {
-        (0, _) => write!(out, "{sign}{whole}"),
-        (_, 0) => write!(out, "{sign}{whole}.{}", rest / 10),
-        _ => write!(out, "{sign}{whole}.{rest:02}"),
-    };
-}
-
-/// Text as it may stand in an attribute or between tags; what XML cannot hold becomes U+FFFD.
-fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\t' | '\n' | '\r' => out.push(' '),
-            '\0'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => out.push('\u{fffd}'),
-            _ => out.push(c),
-        }
-    }
-    out
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn number(value: f64) -> String {
-        let mut out = String::new();
-        write_number(&mut out, value);
-        out
-    }
-
-    #[test]
-    fn numbers_are_short() {
-        let cases = [
-            (1.0, "1"),
-            (-0.001, "0"),
-            (2.5, "2.5"),
-            (-3.146, "-3.15"),
-            (0.05, "0.05"),
-            (1e300, "1000000"),
-        ];
-        for (value, text) in cases {
-            assert_eq!(number(value), text);
-        }
-    }
 
     #[test]
     fn leaves_out_what_is_no_number() {
@@ -262,12 +230,5 @@ mod tests {
         assert_eq!(svg.as_str(), "");
         let (a, b) = (Point2::default(), Point2::new(0.0, f64::NAN));
         assert_eq!(PathData::polyline([a, b, a, a]).data, "M0 0M0 0L0 0");
-    }
-
-    #[test]
-    fn escapes_text() {
-        let mut svg = Svg::default();
-        svg.add(&Element::new("a").text("b", "<\"&\u{1}\n>"));
-        assert_eq!(svg.as_str(), "<a b=\"&lt;&quot;&amp;\u{fffd} &gt;\"/>\n");
     }
 }

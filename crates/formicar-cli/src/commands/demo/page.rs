@@ -6,8 +6,7 @@ use super::run::{Done, status};
 use super::table::{Numbers, tally};
 use crate::summary::duration;
 use formicar::planner::Answer;
-use formicar::render::Picture;
-use std::fmt::Write;
+use formicar::render::{Element, Markup, Picture, html_page};
 
 const STYLE: &str = include_str!("style.css");
 
@@ -18,40 +17,37 @@ const HOW_TO_READ: &str = "A path counts as found only with a certificate: a jud
 
 /// The page for runs that have ended.
 pub(super) fn html(done: &[Done], total_s: f64) -> String {
-    let mut page = Html::default();
-    page.raw("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
-    page.raw("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
-    // Without an icon of its own a browser asks the server for one.
-    page.raw("<link rel=\"icon\" href=\"data:,\">\n<title>formicar demo</title>\n");
-    page.raw(&format!(
-        "<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n"
-    ));
-    page.element("h1", "formicar demo");
-    let version = env!("CARGO_PKG_VERSION");
-    let tally = tally(done).join("; ");
-    page.element("p class=\"lead\"", &format!("{tally}."));
-    page.element("p", HOW_TO_READ);
-    page.element(
-        "p class=\"muted\"",
-        &format!("formicar {version}, {total_s:.1} s in all"),
-    );
-    page.raw("</header>\n<main>\n");
-    overview(&mut page, done);
-    for chapter in Chapter::ALL {
-        let mut runs = done.iter().filter(|d| d.case.chapter == chapter).peekable();
-        if runs.peek().is_some() {
-            page.element("h2", chapter.title());
-            for run in runs {
-                article(&mut page, run);
+    html_page("formicar demo", STYLE, |page| {
+        page.raw("<header>\n");
+        page.words(&Element::new("h1"), "formicar demo");
+        let tally = tally(done).join("; ");
+        page.words(&Element::of_class("p", "lead"), &format!("{tally}."));
+        page.words(&Element::new("p"), HOW_TO_READ);
+        let version = env!("CARGO_PKG_VERSION");
+        let about = format!("formicar {version}, {total_s:.1} s in all");
+        page.words(&Element::of_class("p", "muted"), &about);
+        page.raw("</header>\n<main>\n");
+        overview(page, done);
+        for chapter in Chapter::ALL {
+            let mut runs = done.iter().filter(|d| d.case.chapter == chapter).peekable();
+            if runs.peek().is_some() {
+                page.words(&Element::new("h2"), chapter.title());
+                for run in runs {
+                    article(page, run);
+                }
             }
         }
-    }
-    page.raw("</main>\n</body>\n</html>\n");
-    page.0
+        page.raw("</main>\n");
+    })
+}
+
+/// A link with its words.
+fn link(page: &mut Markup, to: &str, words: &str) {
+    page.words(&Element::new("a").text("href", to), words);
 }
 
 /// The table of all runs, chapter by chapter.
-fn overview(page: &mut Html, done: &[Done]) {
+fn overview(page: &mut Markup, done: &[Done]) {
     page.raw("<div class=\"scroll\">\n<table>\n<thead><tr>");
     for head in [
         "run",
@@ -65,7 +61,7 @@ fn overview(page: &mut Html, done: &[Done]) {
         "first path",
         "query",
     ] {
-        page.element("th scope=\"col\"", head);
+        page.words(&Element::new("th").text("scope", "col"), head);
     }
     page.raw("</tr></thead>\n");
     for chapter in Chapter::ALL {
@@ -79,9 +75,9 @@ fn overview(page: &mut Html, done: &[Done]) {
     page.raw("</table>\n</div>\n");
 }
 
-fn row(page: &mut Html, done: &Done) {
+fn row(page: &mut Markup, done: &Done) {
     page.raw("<tr><th scope=\"row\">");
-    page.link(&format!("#{}", done.case.id()), &done.case.title());
+    link(page, &format!("#{}", done.case.id()), &done.case.title());
     page.raw("</th><td>");
     badge(page, done);
     page.raw("</td>");
@@ -98,31 +94,31 @@ fn row(page: &mut Html, done: &Done) {
         &first,
         &query,
     ] {
-        page.element("td class=\"number\"", number);
+        page.words(&Element::of_class("td", "number"), number);
     }
     page.raw("</tr>\n");
 }
 
-fn badge(page: &mut Html, done: &Done) {
+fn badge(page: &mut Markup, done: &Done) {
     let (class, note) = match (done.is_found(), done.case.is_impossible) {
         (true, _) => ("good", ""),
         (false, true) => ("told", ", rightly"),
         (false, false) => ("bad", ""),
     };
     let text = format!("{}{note}", status(&done.answer));
-    page.element(&format!("span class=\"badge {class}\""), &text);
+    page.words(&Element::of_class("span", &format!("badge {class}")), &text);
 }
 
-fn article(page: &mut Html, done: &Done) {
+fn article(page: &mut Markup, done: &Done) {
     let id = done.case.id();
     page.raw(&format!("<article id=\"{id}\">\n<h3>"));
     page.text(&done.case.title());
     page.raw(" ");
     badge(page, done);
     page.raw("</h3>\n");
-    page.element("p class=\"about\"", done.case.about);
+    page.words(&Element::of_class("p", "about"), done.case.about);
     if let Some(reason) = &done.answer.reason {
-        page.element("p class=\"reason\"", reason);
+        page.words(&Element::of_class("p", "reason"), reason);
     }
     facts(page, done);
     figure(page, done);
@@ -130,14 +126,13 @@ fn article(page: &mut Html, done: &Done) {
         film(page, done);
     }
     if let Some(command) = done.case.command() {
-        page.raw("<pre>");
-        page.text(&command);
-        page.raw("</pre>\n");
+        page.words(&Element::new("pre"), &command);
+        page.end_line();
     }
     page.raw("</article>\n");
 }
 
-fn facts(page: &mut Html, done: &Done) {
+fn facts(page: &mut Markup, done: &Done) {
     let numbers = Numbers::of(done);
     let Timings { map, first, query } = Timings::of(&done.answer);
     let planner = format!("{}, {} steps", done.answer.planner, done.n_steps);
@@ -158,50 +153,53 @@ fn facts(page: &mut Html, done: &Done) {
     ] {
         if !value.is_empty() {
             page.raw("<div>");
-            page.element("dt", name);
-            page.element("dd", value);
+            page.words(&Element::new("dt"), name);
+            page.words(&Element::new("dd"), value);
             page.raw("</div>\n");
         }
     }
     page.raw("</dl>\n");
 }
 
-fn figure(page: &mut Html, done: &Done) {
+fn figure(page: &mut Markup, done: &Done) {
     let id = done.case.id();
     let file = |extension: &str| format!("{RUNS_FOLDER}/{id}.{extension}");
-    let sized = |picture: &Picture| {
+    let sized = |element: Element, picture: &Picture| {
         let size = picture.size_px();
-        format!("width=\"{}\" height=\"{}\"", size.x, size.y)
+        element.number("width", size.x).number("height", size.y)
     };
-    page.raw(&format!(
-        "<figure><a href=\"{svg}\"><picture>\n\
-         <source media=\"(max-width: 700px)\" srcset=\"{phone}\" {phone_size}>\n\
-         <img src=\"{svg}\" {size} loading=\"lazy\" alt=\"",
-        svg = file("svg"),
-        phone = file("phone.svg"),
-        phone_size = sized(&done.phone),
-        size = sized(&done.picture),
-    ));
-    page.text(&format!("{}. {}", done.picture.title, done.picture.caption));
-    page.raw("\"></picture></a>\n<figcaption>");
-    page.link(&file("svg"), "picture (SVG)");
+    let phone = Element::new("source")
+        .text("media", "(max-width: 700px)")
+        .text("srcset", &file("phone.svg"));
+    let about = format!("{}. {}", done.picture.title, done.picture.caption);
+    let wide = Element::new("img").text("src", &file("svg"));
+    let wide = sized(wide, &done.picture).text("loading", "lazy");
+    page.raw("<figure>");
+    page.within(&Element::new("a").text("href", &file("svg")), |page| {
+        page.within(&Element::new("picture"), |page| {
+            page.add(&sized(phone, &done.phone));
+            page.add(&wide.text("alt", &about));
+        });
+    });
+    page.raw("\n<figcaption>");
+    link(page, &file("svg"), "picture (SVG)");
     if done.case.has_png {
         page.raw(" ");
-        page.link(&file("png"), "picture (PNG)");
+        link(page, &file("png"), "picture (PNG)");
     }
     page.raw(" ");
-    page.link(&file("json"), "answer (JSON)");
+    link(page, &file("json"), "answer (JSON)");
     page.raw("</figcaption></figure>\n");
 }
 
-fn film(page: &mut Html, done: &Done) {
+fn film(page: &mut Markup, done: &Done) {
     let file = format!("{RUNS_FOLDER}/{}.gif", done.case.id());
-    page.raw(&format!(
-        "<figure><img src=\"{file}\" loading=\"lazy\" alt=\""
-    ));
-    page.text("The ants and their pheromone, iteration by iteration.");
-    page.raw("\"><figcaption>");
-    page.link(&file, "ants (GIF)");
+    let about = "The ants and their pheromone, iteration by iteration.";
+    let image = Element::new("img").text("src", &file);
+    page.raw("<figure>");
+    page.add(&image.text("loading", "lazy").text("alt", about));
+    page.raw("<figcaption>");
+    link(page, &file, "ants (GIF)");
     page.raw("</figcaption></figure>\n");
 }
 
@@ -220,53 +218,5 @@ impl Timings {
             first: timing.first_feasible_s.map_or(String::new(), duration),
             query: duration(timing.query_s),
         }
-    }
-}
-
-/// HTML under construction.
-#[derive(Default)]
-struct Html(String);
-
-impl Html {
-    /// Markup of our own.
-    fn raw(&mut self, markup: &str) {
-        self.0.push_str(markup);
-    }
-
-    /// Text, escaped for content and attributes.
-    fn text(&mut self, text: &str) {
-        for c in text.chars() {
-            match c {
-                '&' => self.0.push_str("&amp;"),
-                '<' => self.0.push_str("&lt;"),
-                '>' => self.0.push_str("&gt;"),
-                '"' => self.0.push_str("&quot;"),
-                _ => self.0.push(c),
-            }
-        }
-    }
-
-    /// An element with text in it; `tag` may carry attributes.
-    fn element(&mut self, tag: &str, text: &str) {
-        let name = tag.split(' ').next().unwrap_or_default();
-        let _ = write!(self.0, "<{tag}>");
-        self.text(text);
-        let _ = write!(self.0, "</{name}>");
-    }
-
-    fn link(&mut self, to: &str, text: &str) {
-        self.element(&format!("a href=\"{to}\""), text);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn text_is_escaped_and_elements_are_closed() {
-        let mut page = Html::default();
-        page.element("p class=\"a\"", "1 < 2 & \"so\"");
-        assert_eq!(page.0, "<p class=\"a\">1 &lt; 2 &amp; &quot;so&quot;</p>");
     }
 }

@@ -4,8 +4,9 @@ use super::report::place;
 use crate::analysis::compare::{METRICS, Metric, planners, runs_of};
 use crate::campaign::{Improvement, Record};
 use crate::report::{
-    BandPanel, Bands, Block, BoxGroup, BoxPlot, Course, PairedPanel, PairedPlot, ScaleKind, Section,
+    Block, BoxGroup, BoxPlot, PairedPanel, PairedPlot, Section, Trend, TrendPanel, Trends,
 };
+use formicar::render::AxisScale;
 use std::collections::BTreeMap;
 
 /// Metrics that are drawn as they are, on a logarithmic axis.
@@ -36,18 +37,18 @@ pub(super) fn spreads(records: &[Record]) -> Section {
     let mut blocks = Vec::new();
     for metric in metrics(&TIMES) {
         let of = |record: &Record| metric.of(record);
-        blocks.extend(spread(records, (metric.name, ScaleKind::Log), of));
+        blocks.extend(spread(records, (metric.name, AxisScale::Log), of));
     }
     for metric in metrics(&EXTENTS) {
         let least = least(records, metric);
         let of = |record: &Record| Some(metric.of(record)? / least.get(&place(record))?);
         let words = metric.name.trim_end_matches(" m");
         let quantity = format!("{words} over the least of its scenario");
-        blocks.extend(spread(records, (&quantity, ScaleKind::Linear), of));
+        blocks.extend(spread(records, (&quantity, AxisScale::Linear), of));
     }
     for metric in metrics(&PLAIN) {
         let of = |record: &Record| metric.of(record);
-        blocks.extend(spread(records, (metric.name, ScaleKind::Linear), of));
+        blocks.extend(spread(records, (metric.name, AxisScale::Linear), of));
     }
     Section {
         heading: "How values are spread".to_owned(),
@@ -58,7 +59,7 @@ pub(super) fn spreads(records: &[Record]) -> Section {
 /// A box for each planner that has values; nothing where none has.
 fn spread(
     records: &[Record],
-    (quantity, scale): (&str, ScaleKind),
+    (quantity, scale): (&str, AxisScale),
     of: impl Fn(&Record) -> Option<f64>,
 ) -> Option<Block> {
     let group = |name: &&str| BoxGroup {
@@ -115,20 +116,20 @@ pub(super) fn differences(pairs: &[[&Record; 2]]) -> Option<Block> {
 pub(super) fn convergence(records: &[Record]) -> Option<Section> {
     let figures = [by_time_and_steps(records), by_iteration(records)];
     let figures = figures.into_iter().filter(is_drawn);
-    let blocks: Vec<Block> = figures.map(Block::Bands).collect();
+    let blocks: Vec<Block> = figures.map(Block::Trends).collect();
     (!blocks.is_empty()).then(|| Section {
         heading: "How paths get better".to_owned(),
         blocks,
     })
 }
 
-fn is_drawn(bands: &Bands) -> bool {
-    let mut courses = bands.panels.iter().flat_map(|panel| &panel.courses);
-    courses.any(|course| !course.points.is_empty())
+fn is_drawn(plot: &Trends) -> bool {
+    let mut trends = plot.panels.iter().flat_map(|panel| &panel.trends);
+    trends.any(|trend| !trend.points.is_empty())
 }
 
 /// Length of the best path by time and by steps, over the least of its scenario.
-fn by_time_and_steps(records: &[Record]) -> Bands {
+fn by_time_and_steps(records: &[Record]) -> Trends {
     let least: BTreeMap<_, f64> = metrics(&["length m"])
         .flat_map(|length| least(records, length))
         .collect();
@@ -140,19 +141,19 @@ fn by_time_and_steps(records: &[Record]) -> Bands {
                 .map(|i| [of(i).max(f64::MIN_POSITIVE), i.length_m / least_m])
                 .collect()
         };
-        BandPanel {
+        TrendPanel {
             x: x.to_owned(),
-            x_scale: ScaleKind::Log,
-            courses: courses(records, ScaleKind::Log, points),
+            x_scale: AxisScale::Log,
+            trends: trends(records, AxisScale::Log, points),
         }
     };
-    Bands {
+    Trends {
         caption: "Certified paths of the solved runs alone, from the beginning of the query on: \
                   median and the band between quartiles, from where three quarters of a planner's \
                   solved runs have a path; a dot with its quartiles where all of that is one place."
             .to_owned(),
         quantity: "length over the least of its scenario".to_owned(),
-        y_scale: ScaleKind::Linear,
+        y_scale: AxisScale::Linear,
         panels: vec![
             panel("ms", |improvement| 1e3 * improvement.at_s),
             panel("steps", |improvement| improvement.steps as f64),
@@ -162,7 +163,7 @@ fn by_time_and_steps(records: &[Record]) -> Bands {
 
 /// Least cost so far of colonies by iteration, over the last one of its run: what a colony costs
 /// its ways in is its own, so that other colonies' costs are in other units.
-fn by_iteration(records: &[Record]) -> Bands {
+fn by_iteration(records: &[Record]) -> Trends {
     let points = |record: &Record| {
         let costs = record.history.iterations.iter();
         let costs: Vec<Option<f64>> = costs.map(|i| i["best_so_far_cost"].as_f64()).collect();
@@ -173,35 +174,35 @@ fn by_iteration(records: &[Record]) -> Bands {
         };
         costs.iter().enumerate().filter_map(point).collect()
     };
-    Bands {
+    Trends {
         caption: "Ways of the ants in the solved runs alone: the least cost up to an iteration \
                   over that after the last one, median and the band between quartiles, from where \
                   three quarters of a colony's solved runs have a way; a dot where that is one \
                   iteration."
             .to_owned(),
         quantity: "least cost over the last of its run".to_owned(),
-        y_scale: ScaleKind::Linear,
-        panels: vec![BandPanel {
+        y_scale: AxisScale::Linear,
+        panels: vec![TrendPanel {
             x: "iteration".to_owned(),
-            x_scale: ScaleKind::Linear,
-            courses: courses(records, ScaleKind::Linear, points),
+            x_scale: AxisScale::Linear,
+            trends: trends(records, AxisScale::Linear, points),
         }],
     }
 }
 
-/// A course for each planner, over its solved runs that have points.
-fn courses(
+/// A trend for each planner, over its solved runs that have points.
+fn trends(
     records: &[Record],
-    scale: ScaleKind,
+    scale: AxisScale,
     points: impl Fn(&Record) -> Vec<[f64; 2]>,
-) -> Vec<Course> {
-    let course = |planner: &&str| {
+) -> Vec<Trend> {
+    let trend = |planner: &&str| {
         let runs = runs_of(records, planner).into_iter();
         let solved = runs.filter(|record| record.row.is_solved());
         let runs: Vec<Vec<[f64; 2]>> = solved.map(&points).filter(|run| !run.is_empty()).collect();
-        Course::of_runs(planner, &runs, scale)
+        Trend::of_runs(planner, &runs, scale)
     };
-    planners(records).iter().map(course).collect()
+    planners(records).iter().map(trend).collect()
 }
 
 #[cfg(test)]
@@ -227,16 +228,16 @@ mod tests {
     }
 
     #[test]
-    fn a_planner_that_rarely_solves_has_a_course_of_its_solved_runs() {
+    fn a_planner_that_rarely_solves_has_a_trend_of_its_solved_runs() {
         let records: Vec<Record> = (0..8).map(|seed| run("p", seed, seed == 3)).collect();
         let section = convergence(&records).unwrap();
-        let [Block::Bands(bands)] = &section.blocks[..] else {
+        let [Block::Trends(plot)] = &section.blocks[..] else {
             panic!("{section:?}");
         };
-        let points = &bands.panels[0].courses[0].points;
+        let points = &plot.panels[0].trends[0].points;
         assert_eq!(points[0][1..], [2.0; 3]);
         assert_eq!(points[points.len() - 1], [400.0, 1.0, 1.0, 1.0]);
-        assert!(bands.caption.contains("solved runs alone"));
+        assert!(plot.caption.contains("solved runs alone"));
         assert_eq!(convergence(&records[..3]), None);
     }
 
@@ -246,30 +247,30 @@ mod tests {
         for record in &mut records {
             record.history.iterations = vec![json!({"best_so_far_cost": 6.0})];
         }
-        let Block::Bands(bands) = &convergence(&records).unwrap().blocks[1] else {
+        let Block::Trends(plot) = &convergence(&records).unwrap().blocks[1] else {
             panic!("no picture by iteration");
         };
-        assert_eq!(bands.panels[0].courses[0].points, [[1.0; 4]]);
-        assert!(bands.to_svg().contains("<circle"));
+        assert_eq!(plot.panels[0].trends[0].points, [[1.0; 4]]);
+        assert!(plot.to_svg().contains("<circle"));
     }
 
     #[test]
-    fn colonies_have_a_course_by_iteration() {
+    fn colonies_have_a_trend_by_iteration() {
         let mut records = vec![run("ants", 0, true), run("astar", 0, true)];
         let costs = [None, Some(6.0), Some(4.0)];
         let iterations = costs.map(|cost: Option<f64>| json!({"best_so_far_cost": cost}));
         records[0].history.iterations = iterations.to_vec();
         let section = convergence(&records).unwrap();
-        let Block::Bands(bands) = &section.blocks[1] else {
+        let Block::Trends(plot) = &section.blocks[1] else {
             panic!("{section:?}");
         };
-        let [ants, other] = &bands.panels[0].courses[..] else {
-            panic!("{bands:?}");
+        let [ants, other] = &plot.panels[0].trends[..] else {
+            panic!("{plot:?}");
         };
         assert_eq!(ants.points[0], [2.0, 1.5, 1.5, 1.5]);
         assert_eq!(ants.points[ants.points.len() - 1], [3.0, 1.0, 1.0, 1.0]);
         assert!(other.points.is_empty());
-        let svg = bands.to_svg();
+        let svg = plot.to_svg();
         assert!(svg.contains(">ants<") && !svg.contains(">astar<"), "{svg}");
     }
 }

@@ -12,7 +12,7 @@ const MIN_COUNTED: usize = 6;
 
 /// What a comparison or a count says of its claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Vote {
+pub(crate) enum Vote {
     For,
     /// The opposite is as sure.
     Against,
@@ -25,16 +25,16 @@ pub(super) enum Vote {
 /// A comparison with its numbers.
 #[derive(Clone, Debug)]
 pub struct Tested<'a> {
-    pub(super) comparison: &'a Comparison,
+    pub(crate) comparison: &'a Comparison,
     /// Medians of the first and of the other.
-    pub(super) medians: Option<[f64; 2]>,
+    pub(crate) medians: Option<[f64; 2]>,
     /// Median difference with its 95 % interval.
-    pub(super) difference: Option<[f64; 3]>,
-    pub(super) p: Option<f64>,
-    pub(super) p_holm: Option<f64>,
+    pub(crate) difference: Option<[f64; 3]>,
+    pub(crate) p: Option<f64>,
+    pub(crate) p_holm: Option<f64>,
     /// How often the first has the larger value.
-    pub(super) a: Option<f64>,
-    pub(super) vote: Vote,
+    pub(crate) a: Option<f64>,
+    pub(crate) vote: Vote,
 }
 
 /// A claim with its verdict.
@@ -44,8 +44,8 @@ pub struct Judged<'a> {
     pub claim: &'a Claim,
     /// The verdict.
     pub verdict: Verdict,
-    pub(super) tests: Vec<Tested<'a>>,
-    pub(super) counts: Vec<(&'a Counted, Vote)>,
+    pub(crate) tests: Vec<Tested<'a>>,
+    pub(crate) counts: Vec<(&'a Counted, Vote)>,
 }
 
 impl Claims {
@@ -94,7 +94,7 @@ fn p_of(comparison: &Comparison) -> Option<f64> {
 
 impl Comparison {
     /// First less other, pair by pair.
-    pub(super) fn differences(&self) -> Vec<f64> {
+    pub(crate) fn differences(&self) -> Vec<f64> {
         self.pairs
             .iter()
             .map(|[first, other]| first - other)
@@ -213,7 +213,7 @@ impl<'a> Judged<'a> {
     }
 
     /// How many are for, against, and open.
-    pub(super) fn tally(&self) -> [usize; 3] {
+    pub(crate) fn tally(&self) -> [usize; 3] {
         [Vote::For, Vote::Against, Vote::Open]
             .map(|kind| self.votes().filter(|vote| *vote == kind).count())
     }

@@ -1,4 +1,4 @@
-//! Verdicts as they stand on a page.
+//! Verdicts and tests as sections of a page.
 
 use super::judge::{Judged, Tested};
 use super::{Claims, Expected};
@@ -17,26 +17,20 @@ const RULE: &str = "Each claim is tested on our maps, method against method, see
 impl Claims {
     /// The verdicts.
     pub(crate) fn verdicts(&self) -> Section {
-        Section {
-            heading: "Claims and verdicts".to_owned(),
-            blocks: vec![
-                Block::Table(verdicts(&self.judged())),
-                Block::Text(RULE.to_owned()),
-            ],
-        }
+        let table = Block::Table(verdicts(&self.judged()));
+        Section::new(
+            "Claims and verdicts",
+            vec![table, Block::Text(RULE.to_owned())],
+        )
     }
 
     /// The tests behind the verdicts, and their differences as pictures.
     pub(crate) fn tests(&self) -> Section {
         let judged = self.judged();
+        let table = Block::Table(tests(&judged));
         let plots = plots(&judged).into_iter().map(Block::Paired);
-        Section {
-            heading: "Tests of the claims".to_owned(),
-            blocks: [Block::Table(tests(&judged))]
-                .into_iter()
-                .chain(plots)
-                .collect(),
-        }
+        let blocks = [table].into_iter().chain(plots).collect();
+        Section::new("Tests of the claims", blocks)
     }
 }
 

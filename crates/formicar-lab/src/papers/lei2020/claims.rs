@@ -1,48 +1,55 @@
-//! What the paper claims.
+//! The claims of the paper.
 
 use super::MAPS;
 use super::variants::{CONSTANT, CONVENTIONAL, ELITE, FREE_TURNS, IMPROVED, OPEN, UNIFORM};
+use crate::papers::Trial;
 use crate::papers::claims::{Claim, Claims, Comparison, Counted, Expected};
-use crate::papers::trials::{Quantity, Runs};
+use crate::papers::group::Quantity;
+use crate::papers::trials::Runs;
 
-const LENGTH: Quantity = Quantity {
+const LENGTH: Quantity<Trial> = Quantity {
     name: "length, cells",
     n_decimals: 1,
     of: |trial| trial.length_cells,
 };
-const SEARCH: Quantity = Quantity {
+const SEARCH: Quantity<Trial> = Quantity {
     name: "search, ms",
     n_decimals: 1,
     of: |trial| Some(trial.search_ms),
 };
-const TURNS: Quantity = Quantity {
+const TURNS: Quantity<Trial> = Quantity {
     name: "turns",
     n_decimals: 0,
     of: |trial| Some(trial.n_turns? as f64),
 };
-const ARRIVED: Quantity = Quantity {
+const ARRIVED: Quantity<Trial> = Quantity {
     name: "ants that arrive, %",
     n_decimals: 1,
     of: |trial| Some(100.0 * trial.arrived_share),
 };
-const EARLY: Quantity = Quantity {
+const EARLY: Quantity<Trial> = Quantity {
     name: "length after a tenth of the run, cells",
     n_decimals: 1,
     of: |trial| trial.early_length_cells,
 };
-const CONVERGED: Quantity = Quantity {
+const CONVERGED: Quantity<Trial> = Quantity {
     name: "iterations to within 1 % of its best",
     n_decimals: 0,
     of: |trial| Some(f64::from(trial.n_to_1_percent?)),
 };
-const SPREAD: Quantity = Quantity {
+const SPREAD: Quantity<Trial> = Quantity {
     name: "spread of best lengths, second half, cells",
     n_decimals: 2,
     of: |trial| trial.late_spread_cells,
 };
 
 /// The improved colony against another on all maps.
-fn against(runs: Runs, other: &str, quantity: Quantity, expected: Expected) -> Vec<Comparison> {
+fn against(
+    runs: Runs,
+    other: &str,
+    quantity: &Quantity<Trial>,
+    expected: Expected,
+) -> Vec<Comparison> {
     let compare = |map: &str| runs.compare(map, [IMPROVED, other], (quantity, expected));
     MAPS.iter().map(|map| compare(map.name)).collect()
 }
@@ -60,27 +67,27 @@ fn of_table_1(runs: Runs) -> Vec<Claim> {
         Claim::paired(
             "Finds shorter ways than the conventional colony",
             ("Table 1", "37.9 : 78.2; 58.9 : 157.3; 98.2 : 216.9"),
-            less(CONVENTIONAL, LENGTH),
+            less(CONVENTIONAL, &LENGTH),
         ),
         Claim::paired(
             "Finds shorter ways than the elite colony",
             ("Table 1", "37.9 : 50.5; 58.9 : 87.4; 98.2 : 133.7"),
-            less(ELITE, LENGTH),
+            less(ELITE, &LENGTH),
         ),
         Claim::paired(
             "Searches for a shorter time than the conventional colony",
             ("Table 1", "103 : 302 s; 964 : 2429 s; 1207 : 2653 s"),
-            less(CONVENTIONAL, SEARCH),
+            less(CONVENTIONAL, &SEARCH),
         ),
         Claim::paired(
             "Searches for a shorter time than the elite colony",
             ("Table 1", "103 : 269 s; 964 : 1581 s; 1207 : 1835 s"),
-            less(ELITE, SEARCH),
+            less(ELITE, &SEARCH),
         ),
         Claim::paired(
             "Converges in fewer iterations than the conventional colony",
             ("sec. IV.B, fig. 11", "-"),
-            less(CONVENTIONAL, CONVERGED),
+            less(CONVENTIONAL, &CONVERGED),
         ),
     ]
 }
@@ -92,32 +99,32 @@ fn of_parts(runs: Runs) -> Vec<Claim> {
         Claim::paired(
             "Closed U-shapes keep ants out of dead ends",
             ("sec. II.C", "-"),
-            more(OPEN, ARRIVED),
+            more(OPEN, &ARRIVED),
         ),
         Claim::paired(
             "The gradient of initial pheromone guides the early search",
             ("sec. II.D, V", "-"),
-            less(UNIFORM, EARLY),
+            less(UNIFORM, &EARLY),
         ),
         Claim::paired(
             "Changing evaporation leads to shorter ways than a constant one",
             ("sec. II.E, V", "-"),
-            less(CONSTANT, LENGTH),
+            less(CONSTANT, &LENGTH),
         ),
         Claim::paired(
             "Changing evaporation keeps ants exploring in the middle and at the end",
             ("sec. IV.B, fig. 11", "-"),
-            more(CONSTANT, SPREAD),
+            more(CONSTANT, &SPREAD),
         ),
         Claim::paired(
             "The improved colony still explores where the conventional one repeats itself",
             ("sec. IV.B, fig. 11", "-"),
-            more(CONVENTIONAL, SPREAD),
+            more(CONVENTIONAL, &SPREAD),
         ),
         Claim::paired(
             "A cost of turns leads to fewer turns",
             ("sec. II.G, V", "-"),
-            less(FREE_TURNS, TURNS),
+            less(FREE_TURNS, &TURNS),
         ),
     ]
 }
@@ -127,7 +134,7 @@ fn of_paths(runs: Runs) -> Vec<Claim> {
         Claim::paired(
             "Fewer turns than the conventional colony",
             ("sec. IV, fig. 10", "-"),
-            against(runs, CONVENTIONAL, TURNS, Expected::Less),
+            against(runs, CONVENTIONAL, &TURNS, Expected::Less),
         ),
         Claim::paired(
             "Removing redundant nodes leaves fewer nodes",
@@ -144,24 +151,18 @@ fn of_paths(runs: Runs) -> Vec<Claim> {
 
 /// Nodes after and before, run by run.
 fn nodes(runs: Runs, map: &str) -> Comparison {
-    let trials = runs.trials(map, IMPROVED).into_iter();
-    let pair = |trial: &crate::papers::Trial| {
-        Some([trial.n_nodes_after? as f64, trial.n_nodes_before? as f64])
-    };
+    let nodes = |trial: &Trial| Some([trial.n_nodes_after? as f64, trial.n_nodes_before? as f64]);
+    let runs = runs.of(map, IMPROVED);
     Comparison {
         name: format!("{map}, after - before"),
         quantity: "nodes".to_owned(),
         n_decimals: 0,
-        pairs: trials.filter_map(pair).collect(),
+        pairs: runs.filter_map(|run| nodes(&run.trial)).collect(),
         expected: Expected::Less,
     }
 }
 
 fn certified(runs: Runs, map: &str) -> Counted {
-    let trials = runs.trials(map, IMPROVED);
-    Counted {
-        name: format!("{map}, certified"),
-        n: trials.iter().filter(|trial| trial.certified).count(),
-        of: trials.len(),
-    }
+    let group = runs.group(map, IMPROVED);
+    group.counted(format!("{map}, certified"), |trial| trial.certified)
 }

@@ -2,10 +2,9 @@
 
 use super::variants::{CONVENTIONAL, IMPROVED, variants};
 use super::{COLONIES, MAPS, Map};
-use crate::analysis::statistics::{quantile, quartiles};
 use crate::papers::exhibit::{Exhibit, Line, overlay, strips_of};
 use crate::papers::experiment::{Ground, Variant};
-use crate::papers::trial::Moment;
+use crate::papers::trial::{Moment, Trial};
 use crate::papers::trials::Runs;
 use crate::report::{Block, Field, Figure, Section, Table};
 use anyhow::{Context, Result};
@@ -32,10 +31,7 @@ fn drawn(caption: &str, scene: Scene) -> Block {
         scene: Some(scene),
         ..Picture::default()
     };
-    Block::Figure(Figure {
-        caption: caption.to_owned(),
-        svg: picture.to_svg(),
-    })
+    Block::Figure(Figure::new(caption, &picture))
 }
 
 fn charted(caption: &str, charts: Vec<Chart>) -> Block {
@@ -43,10 +39,7 @@ fn charted(caption: &str, charts: Vec<Chart>) -> Block {
         charts,
         ..Picture::default()
     };
-    Block::Figure(Figure {
-        caption: caption.to_owned(),
-        svg: picture.to_svg(),
-    })
+    Block::Figure(Figure::new(caption, &picture))
 }
 
 fn scene(ground: &Ground) -> Scene {
@@ -77,19 +70,19 @@ pub(super) fn layers(grounds: &[Ground]) -> Result<Section> {
         );
         blocks.push(drawn(&caption, scene));
     }
-    Ok(Section {
-        heading: "Obstacle expansion and U-shapes: figures 2 and 3".to_owned(),
+    Ok(Section::new(
+        "Obstacle expansion and U-shapes: figures 2 and 3",
         blocks,
-    })
+    ))
 }
 
 /// Figures 4 and 5.
 pub(super) fn pheromone(grounds: &[Ground]) -> Result<Section> {
     let blocks = vec![gradient(&grounds[0])?, evaporation()];
-    Ok(Section {
-        heading: "Pheromone at the start, evaporation: figures 4 and 5".to_owned(),
+    Ok(Section::new(
+        "Pheromone at the start, evaporation: figures 4 and 5",
         blocks,
-    })
+    ))
 }
 
 fn gradient(ground: &Ground) -> Result<Block> {
@@ -145,6 +138,7 @@ fn evaporation() -> Block {
         y: Axis {
             label: "rho".to_owned(),
             range: Some((0.0, 1.1)),
+            ..Axis::default()
         },
         series: vec![
             series(
@@ -197,10 +191,7 @@ pub(super) fn nodes(grounds: &[Ground], runs: Runs) -> Result<Section> {
         );
         blocks.push(drawn(&caption, scene));
     }
-    Ok(Section {
-        heading: "Redundant nodes: figure 9".to_owned(),
-        blocks,
-    })
+    Ok(Section::new("Redundant nodes: figure 9", blocks))
 }
 
 fn node_table(runs: Runs) -> Table {
@@ -213,13 +204,13 @@ fn node_table(runs: Runs) -> Table {
         Field::Number(Some(100.0 * 12.0 / 33.0), 1),
     ]);
     for map in &MAPS {
-        let values = |of| runs.values(map.name, IMPROVED, of);
-        let shares = values(|t| Some(100.0 * t.n_nodes_after? as f64 / t.n_nodes_before? as f64));
+        let group = runs.group(map.name, IMPROVED);
+        let share = |t: &Trial| Some(100.0 * t.n_nodes_after? as f64 / t.n_nodes_before? as f64);
         table.row(vec![
             Field::words(map.name),
-            Field::Spread(quartiles(&values(|t| Some(t.n_nodes_before? as f64))), 0),
-            Field::Spread(quartiles(&values(|t| Some(t.n_nodes_after? as f64))), 0),
-            Field::Number(quantile(&shares, 0.5), 1),
+            group.spread(|t| Some(t.n_nodes_before? as f64), 0),
+            group.spread(|t| Some(t.n_nodes_after? as f64), 0),
+            group.number(share, 1),
         ]);
     }
     table
@@ -246,10 +237,10 @@ pub(super) fn paths(map: &Map, ground: &Ground) -> Result<Section> {
     let smooth = overlay(ground, (std::slice::from_ref(last), Line::Curve), &caption);
     let strips = strips_of(ground, last);
     let figures = [cells, smooth].into_iter().chain(strips);
-    Ok(Section {
-        heading: format!("Paths on {}: figure {}", map.name, map.figure),
-        blocks: figures.map(Block::Figure).collect(),
-    })
+    Ok(Section::new(
+        format!("Paths on {}: figure {}", map.name, map.figure),
+        figures.map(Block::Figure).collect(),
+    ))
 }
 
 /// Figure 11.
@@ -258,8 +249,8 @@ pub(super) fn convergence(runs: Runs) -> Section {
                    evaporation on the right axis; above the conventional colony, below the improved \
                    one.";
     let charts = [CONVENTIONAL, IMPROVED].map(|name| {
-        let run = runs.of(MAPS[0].name, name).into_iter().next();
-        course(name, run.map_or(&[], |run| &run.course))
+        let run = runs.of(MAPS[0].name, name).next();
+        generations(name, run.map_or(&[], |run| &run.moments))
     });
     let mut blocks = vec![charted(caption, charts.to_vec())];
     for map in &MAPS {
@@ -269,17 +260,14 @@ pub(super) fn convergence(runs: Runs) -> Section {
              three quarters of the runs have a way.",
             map.name
         );
-        blocks.push(Block::Bands(
+        blocks.push(Block::Trends(
             runs.convergence(map.name, &COLONIES, &caption),
         ));
     }
-    Section {
-        heading: "Convergence: figure 11".to_owned(),
-        blocks,
-    }
+    Section::new("Convergence: figure 11", blocks)
 }
 
-fn course(name: &str, moments: &[Moment]) -> Chart {
+fn generations(name: &str, moments: &[Moment]) -> Chart {
     let points = |of: fn(&Moment) -> Option<f64>| -> Vec<Point2> {
         let point = |moment: &Moment| Some(Point2::new(f64::from(moment.iteration), of(moment)?));
         moments.iter().filter_map(point).collect()
@@ -309,6 +297,7 @@ fn course(name: &str, moments: &[Moment]) -> Chart {
         y_right: Some(Axis {
             label: "rho".to_owned(),
             range: Some((0.0, 1.0)),
+            ..Axis::default()
         }),
         series: vec![mean, best, rho],
         height_px: 200.0,

@@ -5,12 +5,12 @@ mod figures;
 mod tables;
 mod variants;
 
-use crate::papers::correspondence::{self, NOT_MADE, Place};
+use crate::papers::correspondence;
 use crate::papers::experiment::{Ground, Setup, Variant, run_all};
 use crate::papers::parameters;
 use crate::papers::reproduction::Reproduction;
 use crate::papers::trials::Runs;
-use crate::report::{Block, Report, Section};
+use crate::report::{Block, BoxPlot, Report, Section};
 use anyhow::Result;
 use formicar::planner::PlannerName;
 use variants::{CONVENTIONAL, ELITE, IMPROVED, variants};
@@ -82,7 +82,7 @@ fn report(grounds: &[Ground], runs: Runs) -> Result<Report> {
         parameters::LEI2020,
         &Variant::of(PlannerName::Lei2020),
     )?);
-    sections.push(correspondence::section(&PLACES));
+    sections.push(correspondence::section(PLACES));
     Ok(Report {
         name: "lei2020".to_owned(),
         title: "Lei & Zheng 2020: what each part brings".to_owned(),
@@ -103,82 +103,17 @@ fn of_map(map: &str, runs: Runs) -> Section {
         "`{map}`: length of the best way of each run by variant. Boxes reach from quartile to \
          quartile, whiskers to the farthest value within 1.5 box lengths, dots are runs."
     );
-    let lengths = runs.boxes(map, (&caption, "length, cells"), |trial| trial.length_cells);
-    let optimum = runs.median(map, IMPROVED, |trial| trial.optimum_cells);
-    let reference = optimum.map(|optimum| (optimum, "optimum of lei2020's map".to_owned()));
-    Section {
-        heading: format!("Each part off: {map}"),
-        blocks: vec![
-            Block::Table(tables::ablation(map, runs)),
-            Block::BoxPlot(crate::report::BoxPlot {
-                reference,
-                ..lengths
-            }),
-        ],
-    }
+    let improved = runs.group(map, IMPROVED);
+    let optimum = improved.median(|trial| trial.optimum_cells);
+    let lengths = BoxPlot {
+        reference: optimum.map(|optimum| (optimum, "optimum of lei2020's map".to_owned())),
+        ..runs.boxes_of_lengths(map, &caption)
+    };
+    let blocks = vec![
+        Block::Table(tables::ablation(map, runs)),
+        Block::BoxPlot(lengths),
+    ];
+    Section::new(format!("Each part off: {map}"), blocks)
 }
 
-const PLACES: [Place; 14] = [
-    [
-        "Figure 1",
-        NOT_MADE,
-        "concept drawing: the vehicle and its turning circle",
-    ],
-    [
-        "Figure 2",
-        "Obstacle expansion and U-shapes",
-        "on our map of 21 x 21 cells",
-    ],
-    [
-        "Figure 3",
-        "Obstacle expansion and U-shapes",
-        "closed U-shapes of the same map",
-    ],
-    [
-        "Figure 4",
-        "Pheromone at the start, evaporation",
-        "gradient about the line from start to goal",
-    ],
-    [
-        "Figure 5",
-        "Pheromone at the start, evaporation",
-        "equation 1 to the letter and stretched",
-    ],
-    [
-        "Figure 6",
-        NOT_MADE,
-        "concept drawing: two classes of next cells; the rule is on the book's page on transitions",
-    ],
-    [
-        "Figure 7",
-        NOT_MADE,
-        "concept drawing: one node removed; figure 9 shows the outcome",
-    ],
-    [
-        "Figure 8",
-        NOT_MADE,
-        "concept drawing: two arcs at a corner; the book's page on smoothing draws and checks it",
-    ],
-    [
-        "Figure 9",
-        "Redundant nodes",
-        "the same way before and after, and counts over all runs",
-    ],
-    [
-        "Figure 10",
-        "Paths on lei-map1",
-        "with curvature, steering and clearance along the path",
-    ],
-    [
-        "Figure 11",
-        "Convergence",
-        "one run of each, then medians and quartiles; the paper's least-squares curves have no stated form",
-    ],
-    ["Figure 12", "Paths on lei-map2", "map 2"],
-    ["Figure 13", "Paths on lei-map3", "map 3"],
-    [
-        "Table 1",
-        "Table 1: length and time",
-        "our maps of the same sizes",
-    ],
-];
+const PLACES: &str = include_str!("figures.txt");

@@ -1,12 +1,13 @@
-//! What each term of the proposed method brings: each off, with the same seeds.
+//! Each term of the proposed method switched off, with the same seeds.
 
+use super::claims::{COST, DRIVEN, STEP, TIME};
 use super::drive::Drive;
-use super::group::{Group, ratio};
+use super::group::drives_of;
 use super::methods::PROPOSED;
-use crate::analysis::statistics::{bootstrap_median, holm, quantile, vargha_delaney_a, wilcoxon};
+use crate::papers::claims::{Claim, Claims, Expected};
 use crate::papers::experiment::Variant;
-use crate::report::Block;
-use crate::report::{Field, Section, Table};
+use crate::papers::group::{Column, Quantity, ratio, table_of};
+use crate::report::{Block, Field, Section, Table};
 use formicar::colony::chord::{
     ChordConfig, ChordTransition, CornerRule, CornerTerm, Depositor, DistanceTerm, Safety,
     SteeringLimit, StraightnessUse,
@@ -15,7 +16,6 @@ use formicar::colony::corridor::Corridor;
 use formicar::colony::dead_end::DeadEnd;
 use formicar::colony::evaporation::{Constant, Evaporation, Generational, Recursion};
 use formicar::colony::heuristic::Guidance;
-use formicar::numeric::Seed;
 use formicar::planner::{PlannerConfig, PlannerName};
 use formicar::smoothing::{Corners, RedundantNodes};
 
@@ -78,161 +78,87 @@ pub(super) fn variants() -> Vec<Variant> {
     ]
 }
 
-/// A number that variants are compared by, pair by pair.
-struct Measure {
-    key: &'static str,
-    name: &'static str,
-    n_decimals: usize,
-    of: fn(&Drive) -> Option<f64>,
-}
-
-const MEASURES: [Measure; 4] = [
-    Measure {
-        key: "paired-length",
-        name: "certified length, m",
-        n_decimals: 3,
-        of: |drive| drive.certified_length_m,
-    },
-    Measure {
-        key: "paired-step",
-        name: "largest step over 1 m, deg",
-        n_decimals: 2,
-        of: |drive| drive.largest_step_deg,
-    },
-    Measure {
-        key: "paired-cost",
-        name: "J",
-        n_decimals: 4,
-        of: |drive| drive.cost,
-    },
-    Measure {
-        key: "paired-time",
-        name: "time, ms",
-        n_decimals: 1,
-        of: |drive| Some(drive.total_ms),
-    },
+/// Quantities that variants are compared by, with the names of their tables.
+const MEASURES: [(&str, Quantity<Drive>); 4] = [
+    ("paired-length", DRIVEN),
+    ("paired-step", STEP),
+    ("paired-cost", COST),
+    ("paired-time", TIME),
 ];
 
 /// The tables of the runs of some variants, the first of which the others are compared with.
 pub(super) fn section(drives: &[Drive], variants: &[Variant]) -> Section {
-    let compared = variants.len() > 1;
-    let paired = MEASURES
-        .iter()
-        .filter(|_| compared)
-        .map(|measure| paired(drives, variants, measure));
+    let measures = MEASURES.iter().filter(|_| variants.len() > 1);
+    let paired = measures.map(|(key, quantity)| paired(drives, variants, (key, quantity)));
     let tables = [outcomes(drives, variants)].into_iter().chain(paired);
-    Section {
-        heading: format!("What each term of {PROPOSED} brings"),
-        blocks: tables.map(Block::Table).collect(),
-    }
+    Section::new(
+        format!("What each term of {PROPOSED} brings"),
+        tables.map(Block::Table).collect(),
+    )
 }
 
 fn outcomes(drives: &[Drive], variants: &[Variant]) -> Table {
     let caption = "Each term off, with the same seeds: certified runs with the 95 % interval of \
                    their rate (Wilson), medians with quartiles of certified length, largest turn \
                    over 1 m, J of the path before corners are rounded, and time.";
-    let mut table = Table::new(
-        "ablation",
-        &[
-            "variant",
-            "certified",
-            "driven m",
-            "largest step deg",
-            "J",
-            "time ms",
-            "time / first",
-        ],
-    )
-    .captioned(caption);
-    let time = |drive: &Drive| Some(drive.total_ms);
-    let group = |variant: &Variant| Group::new(drives, ABLATION, &variant.name);
-    let first = variants.first().and_then(|first| group(first).median(time));
-    for variant in variants {
-        let group = group(variant);
-        table.row(vec![
-            Field::words(&variant.name),
-            group.certified(),
-            group.spread(|drive| drive.certified_length_m, 2),
-            group.spread(|drive| drive.largest_step_deg, 1),
-            group.spread(|drive| drive.cost, 4),
-            group.spread(time, 1),
-            Field::Number(ratio(group.median(time), first), 2),
-        ]);
-    }
-    table
+    let names = variants.iter().map(|variant| variant.name.as_str());
+    let groups: Vec<_> = names
+        .map(|name| (name, drives_of(drives, ABLATION, name)))
+        .collect();
+    let first = groups.first().and_then(|(_, first)| first.median(TIME.of));
+    let columns: [Column<Drive>; 6] = [
+        ("certified", &|g, _| g.certified()),
+        ("driven m", &|g, _| g.spread(DRIVEN.of, 2)),
+        ("largest step deg", &|g, _| g.spread(STEP.of, 1)),
+        ("J", &|g, _| g.spread(COST.of, 4)),
+        ("time ms", &|g, _| g.spread(TIME.of, 1)),
+        ("time / first", &|g, _| {
+            Field::Number(ratio(g.median(TIME.of), first), 2)
+        }),
+    ];
+    table_of("ablation", "variant", &columns, groups).captioned(caption)
 }
 
 /// Differences of variants to the first, seed by seed.
-fn paired(drives: &[Drive], variants: &[Variant], measure: &Measure) -> Table {
+fn paired(
+    drives: &[Drive],
+    variants: &[Variant],
+    (key, quantity): (&str, &Quantity<Drive>),
+) -> Table {
     let caption = format!(
         "Differences to the first, seed by seed, in {}: median with its 95 % interval (percentile \
          bootstrap, seed 0), probability of the signed-rank test (two-sided, exact up to 50 \
-         differences) and after Holm's correction over this table, and Vargha and Delaney's A: how often the \
-         variant has the larger value.",
-        measure.name
+         differences) and after Holm's correction over this table, and Vargha and Delaney's A: how \
+         often the variant has the larger value.",
+        quantity.name
     );
-    let mut table = Table::new(
-        measure.key,
-        &["variant", "pairs", "difference", "p", "p, Holm", "A"],
-    )
-    .captioned(&caption);
-    let pairs: Vec<(&str, Pairs)> = variants
-        .iter()
-        .skip(1)
-        .map(|variant| {
-            (
-                variant.name.as_str(),
-                Pairs::new(drives, [&variants[0], variant], measure),
-            )
-        })
-        .collect();
-    let tests: Vec<Option<f64>> = pairs.iter().map(|(_, pairs)| pairs.p()).collect();
-    let adjusted = holm(&tests.iter().flatten().copied().collect::<Vec<_>>());
-    let mut adjusted = adjusted.into_iter();
-    for ((name, pairs), p) in pairs.iter().zip(tests) {
+    let heading = ["variant", "pairs", "difference", "p", "p, Holm", "A"];
+    let mut table = Table::new(key, &heading).captioned(&caption);
+    let group = |variant: &Variant| drives_of(drives, ABLATION, &variant.name);
+    let (first, others) = variants
+        .split_first()
+        .expect("there are two variants at least");
+    let first = group(first);
+    let compare = |variant: &Variant| {
+        let name = variant.name.clone();
+        group(variant).compare(&first, quantity, (name, Expected::Less))
+    };
+    let claims = Claims(vec![Claim::paired(
+        "Each is less than the first",
+        ("", "-"),
+        others.iter().map(compare).collect(),
+    )]);
+    for test in &claims.judged()[0].tests {
         table.row(vec![
-            Field::words(name),
-            Field::Number(Some(pairs.differences.len() as f64), 0),
-            Field::Spread(pairs.median(), measure.n_decimals),
-            Field::Number(p, 4),
-            Field::Number(p.and_then(|_| adjusted.next()), 4),
-            Field::Number(vargha_delaney_a(&pairs.other, &pairs.first), 2),
+            Field::words(&test.comparison.name),
+            Field::Number(Some(test.comparison.pairs.len() as f64), 0),
+            Field::Spread(test.difference, quantity.n_decimals),
+            Field::Number(test.p, 4),
+            Field::Number(test.p_holm, 4),
+            Field::Number(test.a, 2),
         ]);
     }
     table
-}
-
-/// Values of two variants with the same seeds, where both have one.
-struct Pairs {
-    first: Vec<f64>,
-    other: Vec<f64>,
-    differences: Vec<f64>,
-}
-
-impl Pairs {
-    fn new(drives: &[Drive], [first, other]: [&Variant; 2], measure: &Measure) -> Self {
-        let [first, other] = [first, other].map(|v| Group::new(drives, ABLATION, &v.name));
-        let value_of_first = |drive: &Drive| {
-            let same = |run: &&&Drive| run.seed == drive.seed && run.ground == drive.ground;
-            (measure.of)(first.runs().iter().find(same)?)
-        };
-        let pair = |drive: &&Drive| Some([value_of_first(drive)?, (measure.of)(drive)?]);
-        let pairs: Vec<[f64; 2]> = other.runs().iter().filter_map(pair).collect();
-        Self {
-            first: pairs.iter().map(|pair| pair[0]).collect(),
-            other: pairs.iter().map(|pair| pair[1]).collect(),
-            differences: pairs.iter().map(|pair| pair[1] - pair[0]).collect(),
-        }
-    }
-
-    fn median(&self) -> Option<[f64; 3]> {
-        let [low, high] = bootstrap_median(&self.differences, Seed(0))?;
-        Some([low, quantile(&self.differences, 0.5)?, high])
-    }
-
-    fn p(&self) -> Option<f64> {
-        wilcoxon(&self.differences).map(|test| test.p)
-    }
 }
 
 #[cfg(test)]

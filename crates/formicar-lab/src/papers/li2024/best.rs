@@ -1,12 +1,13 @@
 //! The proposed method beside the best of the others, in one table.
 
 use super::drive::Drive;
-use super::group::{Group, ratio};
+use super::group::drives_of;
 use super::methods::{Method, PROPOSED};
 use super::tables::COMPARISON;
+use crate::papers::group::ratio;
 use crate::report::{Field, Table};
 
-/// What is measured, and whether more is better.
+/// The measures, each with the better direction and its decimals.
 const MEASURES: [(&str, Measure, Better, usize); 5] = [
     (
         "share of turns up to 10 deg over 1 m, %",
@@ -54,7 +55,10 @@ pub(super) fn table(drives: &[Drive], methods: &[Method], ground: &str) -> Table
         &["measure", PROPOSED, "best of others", "whose", "ratio"],
     )
     .captioned(&caption);
-    let mean = |name: &str, of: Measure| Group::new(drives, COMPARISON, name).on(ground).mean(of);
+    let mean = |name: &str, of: Measure| {
+        let group = drives_of(drives, COMPARISON, name).on(ground);
+        group.mean(of)
+    };
     for (claim, of, better, n_decimals) in MEASURES {
         let own = mean(PROPOSED, of);
         let others = methods

@@ -1,11 +1,12 @@
-//! What the paper claims of its method.
+//! The claims of the paper about its method.
 
 use super::ablation::ABLATION;
 use super::drive::Drive;
-use super::group::Group;
+use super::group::{Drives, drives_of};
 use super::methods::PROPOSED;
 use super::tables::COMPARISON;
 use crate::papers::claims::{Claim, Claims, Comparison, Counted, Expected};
+use crate::papers::group::Quantity;
 
 /// The method with integer orders, and without the seed of A*.
 const INTEGER: &str = "faco2024, integer order";
@@ -13,37 +14,32 @@ const UNSEEDED: &str = "faco2024, no A* seed";
 /// Share of turns up to 5 degrees that the paper's conclusion names.
 const SMALL_TURNS: f64 = 0.99;
 
-type Measure = fn(&Drive) -> Option<f64>;
-
-/// A quantity that claims compare.
-#[derive(Clone, Copy)]
-struct Quantity {
-    name: &'static str,
-    n_decimals: usize,
-    of: Measure,
-}
-
-const TIME: Quantity = Quantity {
+pub(super) const TIME: Quantity<Drive> = Quantity {
     name: "map set-up and query, ms",
     n_decimals: 1,
     of: |drive| Some(drive.total_ms),
 };
-const LENGTH: Quantity = Quantity {
+pub(super) const LENGTH: Quantity<Drive> = Quantity {
     name: "path before rounding, m",
     n_decimals: 2,
     of: |drive| drive.native_length_m,
 };
-const COST: Quantity = Quantity {
+pub(super) const DRIVEN: Quantity<Drive> = Quantity {
+    name: "certified curve, m",
+    n_decimals: 3,
+    of: |drive| drive.certified_length_m,
+};
+pub(super) const COST: Quantity<Drive> = Quantity {
     name: "J",
     n_decimals: 4,
     of: |drive| drive.cost,
 };
-const LARGE_TURNS: Quantity = Quantity {
+const LARGE_TURNS: Quantity<Drive> = Quantity {
     name: "turns above 10 degrees, %",
     n_decimals: 2,
     of: |drive| Some(100.0 * drive.native_over_10_deg?),
 };
-const STEP: Quantity = Quantity {
+pub(super) const STEP: Quantity<Drive> = Quantity {
     name: "largest turn over 1 m, degrees",
     n_decimals: 2,
     of: |drive| drive.largest_step_deg,
@@ -75,57 +71,46 @@ pub(super) fn claims(drives: &[Drive], methods: &[&str], ground: &str) -> Claims
 }
 
 impl Evidence<'_> {
-    fn group(&self, method: &str) -> Group<'_> {
-        Group::new(self.drives, COMPARISON, method).on(self.ground)
+    fn group(&self, method: &str) -> Drives<'_> {
+        drives_of(self.drives, COMPARISON, method).on(self.ground)
+    }
+
+    /// Those of some methods that were run.
+    fn ran<'a>(&self, methods: &[&'a str]) -> impl Iterator<Item = &'a str> {
+        let ran = methods.iter().filter(|name| self.methods.contains(name));
+        ran.copied()
     }
 
     /// The proposed method against others that were run.
     fn against(
         &self,
         others: &[&str],
-        (quantity, expected): (Quantity, Expected),
+        (quantity, expected): (&Quantity<Drive>, Expected),
     ) -> Vec<Comparison> {
         let own = self.group(PROPOSED);
-        let ran = others.iter().filter(|name| self.methods.contains(name));
-        let compare = |other: &&str| Comparison {
-            name: format!("{PROPOSED} - {other}"),
-            quantity: quantity.name.to_owned(),
-            n_decimals: quantity.n_decimals,
-            pairs: pairs([&own, &self.group(other)], quantity.of),
-            expected,
+        let compare = |other: &str| {
+            let name = format!("{PROPOSED} - {other}");
+            own.compare(&self.group(other), quantity, (name, expected))
         };
-        ran.map(compare).collect()
+        self.ran(others).map(compare).collect()
     }
 
     /// The proposed method as it is against one of its variants.
-    fn against_variant(&self, variant: &str, quantity: Quantity) -> Comparison {
-        let group = |name: &str| Group::new(self.drives, ABLATION, name);
+    fn against_variant(&self, variant: &str, quantity: &Quantity<Drive>) -> Comparison {
+        let [own, other] = [PROPOSED, variant].map(|name| drives_of(self.drives, ABLATION, name));
         let what = variant.strip_prefix(PROPOSED).unwrap_or(variant);
-        Comparison {
-            name: format!("{PROPOSED} - with {}", what.trim_start_matches(", ")),
-            quantity: quantity.name.to_owned(),
-            n_decimals: quantity.n_decimals,
-            pairs: pairs([&group(PROPOSED), &group(variant)], quantity.of),
-            expected: Expected::Less,
-        }
+        let name = format!("{PROPOSED} - with {}", what.trim_start_matches(", "));
+        own.compare(&other, quantity, (name, Expected::Less))
     }
 
     /// Runs of methods that are as they should be.
     fn counted(&self, methods: &[&str], what: &str, is: impl Fn(&Drive) -> bool) -> Vec<Counted> {
-        let ran = methods.iter().filter(|name| self.methods.contains(name));
-        let count = |name: &&str| {
-            let group = self.group(name);
-            Counted {
-                name: format!("{name}, {what}"),
-                n: group.runs().iter().filter(|drive| is(drive)).count(),
-                of: group.runs().len(),
-            }
-        };
-        ran.map(count).collect()
+        let count = |name: &str| self.group(name).counted(format!("{name}, {what}"), &is);
+        self.ran(methods).map(count).collect()
     }
 
     fn of_time(&self) -> Vec<Claim> {
-        let less = |others: &[&str]| self.against(others, (TIME, Expected::Less));
+        let less = |others: &[&str]| self.against(others, (&TIME, Expected::Less));
         vec![
             Claim::paired(
                 "Takes less time than A*, GA and ACO",
@@ -151,17 +136,20 @@ impl Evidence<'_> {
                     "Table 1, sec. 5.2",
                     "92.98 : 93.57, 93.36 and 94.97 m: 0.63, 0.40 and 2.10 % less",
                 ),
-                self.against(&["improved-astar", "aga", "acof"], (LENGTH, Expected::Less)),
+                self.against(
+                    &["improved-astar", "aga", "acof"],
+                    (&LENGTH, Expected::Less),
+                ),
             ),
             Claim::paired(
                 "GA's path is longer",
                 ("Table 1", "92.98 : 101.24 m"),
-                self.against(&["ga"], (LENGTH, Expected::Less)),
+                self.against(&["ga"], (&LENGTH, Expected::Less)),
             ),
             Claim::paired(
                 "A* and ACO, which heed no constraints, find shorter paths",
                 ("Table 1, sec. 5.2", "92.98 : 91.60 and 89.20 m"),
-                self.against(&["astar", "aco"], (LENGTH, Expected::More)),
+                self.against(&["astar", "aco"], (&LENGTH, Expected::More)),
             ),
         ]
     }
@@ -209,7 +197,7 @@ impl Evidence<'_> {
                 ("Table 2", "0 : 0.46, 0.93, 66.67, 100 and 66.67 %"),
                 self.against(
                     &["astar", "improved-astar", "ga", "aga", "aco"],
-                    (LARGE_TURNS, Expected::Less),
+                    (&LARGE_TURNS, Expected::Less),
                 ),
             ),
             Claim::counted(
@@ -225,35 +213,26 @@ impl Evidence<'_> {
             Claim::paired(
                 "It reaches the lowest cost J of the methods that search by generations",
                 ("sec. 5.2, fig. 12", "-"),
-                self.against(&["ga", "aga", "aco", "acof"], (COST, Expected::Less)),
+                self.against(&["ga", "aga", "aco", "acof"], (&COST, Expected::Less)),
             ),
             Claim::paired(
                 "The fractional order leads to smoother paths than an integer order",
                 ("sec. 4, 5.2, 6", "-"),
                 vec![
-                    self.against_variant(INTEGER, STEP),
-                    self.against_variant(INTEGER, COST),
+                    self.against_variant(INTEGER, &STEP),
+                    self.against_variant(INTEGER, &COST),
                 ],
             ),
             Claim::paired(
                 "Pheromone on the path of A* helps the search",
                 ("sec. 4, 5.2", "-"),
                 vec![
-                    self.against_variant(UNSEEDED, COST),
-                    self.against_variant(UNSEEDED, TIME),
+                    self.against_variant(UNSEEDED, &COST),
+                    self.against_variant(UNSEEDED, &TIME),
                 ],
             ),
         ]
     }
-}
-
-/// Values of two groups with the same seeds, where both have one.
-fn pairs([first, other]: [&Group; 2], of: Measure) -> Vec<[f64; 2]> {
-    let pair = |drive: &&Drive| {
-        let same = other.runs().iter().find(|other| other.seed == drive.seed)?;
-        Some([of(drive)?, of(same)?])
-    };
-    first.runs().iter().filter_map(pair).collect()
 }
 
 #[cfg(test)]
@@ -283,7 +262,7 @@ mod tests {
         let claims = claims(&drives, &[PROPOSED, "ga"], "g");
         let judged = claims.judged();
         assert_eq!(judged[0].verdict, Verdict::Holds);
-        // Of no other method there are runs.
+        // No other method has runs.
         assert_eq!(judged[1].verdict, Verdict::Undecided);
         assert_eq!(judged[5].verdict, Verdict::Holds);
     }

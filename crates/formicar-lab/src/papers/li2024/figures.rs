@@ -65,13 +65,11 @@ pub(super) fn path_figure(
         scene: Some(scene),
         ..Picture::default()
     };
-    Figure {
-        caption: format!(
-            "`{}` on `{}`, seed 0: {verdict}.",
-            exhibit.method, ground.map
-        ),
-        svg: picture.to_svg(),
-    }
+    let caption = format!(
+        "`{}` on `{}`, seed 0: {verdict}.",
+        exhibit.method, ground.map
+    );
+    Figure::new(&caption, &picture)
 }
 
 fn verdict(exhibit: &Exhibit, n_places: usize) -> String {

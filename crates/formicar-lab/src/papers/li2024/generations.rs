@@ -3,20 +3,20 @@
 use super::drive::{Exhibit, Job};
 use super::methods::Generations;
 use crate::analysis::statistics::quartiles;
-use crate::report::{self, BandPanel, Bands, ScaleKind};
+use crate::report::{Trend, TrendPanel, Trends};
 use anyhow::Result;
 use formicar::geometry::Point2;
 use formicar::map::{BitGrid, DiagonalRule};
 use formicar::numeric::Seed;
 use formicar::planner::Planner;
 use formicar::progress::{AntWays, Event, IterationRecord, Observer};
-use formicar::render::{Axis, Chart, Color, Dash, Picture, Ribbon, Series, palette};
+use formicar::render::AxisScale;
 use formicar::smoothing::RedundantNodes;
 use std::time::{Duration, Instant};
 
-/// What the seeds of a method had by generation; a run that stopped keeps its last values.
+/// Costs of the runs of a method by generation; a run that stopped keeps its last values.
 #[derive(Clone, Debug)]
-pub(super) struct Course {
+pub(super) struct CostHistory {
     method: String,
     /// The lowest cost so far of each run, with paths tried and milliseconds.
     progress: Vec<Vec<Progress>>,
@@ -32,7 +32,7 @@ type Generation = [Option<f64>; 2];
 /// Paths tried, milliseconds, and the lowest cost so far.
 type Progress = [f64; 3];
 
-/// Where the costs of a generation come from.
+/// The origin of the costs of a generation.
 enum Source<'a> {
     Record,
     Ways {
@@ -42,13 +42,13 @@ enum Source<'a> {
     },
 }
 
-/// Runs a method again, watched, with seeds from 0 on; none where it has no generations.
+/// Runs a method again, watched, with seeds from 0 on; `None` where it has no generations.
 pub(super) fn watch(
     job: Job,
     kind: Generations,
     exhibit: &Exhibit,
     n_seeds: u64,
-) -> Result<Option<Course>> {
+) -> Result<Option<CostHistory>> {
     let source = match (kind, &exhibit.blocked) {
         (Generations::Record, _) => Source::Record,
         (Generations::Ways, Some(blocked)) => Source::Ways {
@@ -75,8 +75,11 @@ pub(super) fn watch(
         runs.push(watcher.generations);
         progress.push(watcher.progress);
     }
-    let course = Course::new(&job.variant.name, &runs);
-    Ok(course.map(|course| Course { progress, ..course }))
+    let history = CostHistory::new(&job.variant.name, &runs);
+    Ok(history.map(|history| CostHistory {
+        progress,
+        ..history
+    }))
 }
 
 struct Watcher<'a> {
@@ -85,7 +88,7 @@ struct Watcher<'a> {
     progress: Vec<Progress>,
     n_tried: u64,
     begun: Instant,
-    /// Time that watching itself took.
+    /// Time spent in the observer itself.
     watched: Duration,
 }
 
@@ -117,7 +120,7 @@ impl Watcher<'_> {
 }
 
 impl Source<'_> {
-    /// Mean and least J of a generation, and its record; none of other events.
+    /// Mean and least J of a generation, and its record; `None` for other events.
     fn costs<'b>(&self, event: &'b Event) -> Option<(&'b IterationRecord, Generation)> {
         let (record, ways) = match event {
             Event::Iteration(view) => (view.record, Some(&view.ways)),
@@ -149,8 +152,8 @@ fn of_ways(job: &Job, ways: &AntWays, (blocked, rule): (&BitGrid, DiagonalRule))
     ]
 }
 
-impl Course {
-    /// None where no run had a generation with a cost.
+impl CostHistory {
+    /// `None` where no run had a generation with a cost.
     fn new(method: &str, runs: &[Vec<Generation>]) -> Option<Self> {
         let n_generations = runs.iter().map(Vec::len).max().filter(|&n| n > 0)?;
         let over_runs = |which: usize, i: usize| {
@@ -158,109 +161,83 @@ impl Course {
             let values: Vec<f64> = runs.iter().filter_map(value).collect();
             quartiles(&values)
         };
-        let course = |which: usize| (0..n_generations).map(|i| over_runs(which, i)).collect();
-        let lowest: Vec<_> = course(1);
+        let quartiles = |which: usize| (0..n_generations).map(|i| over_runs(which, i)).collect();
+        let lowest: Vec<_> = quartiles(1);
         lowest.iter().any(Option::is_some).then(|| Self {
             method: method.to_owned(),
             progress: Vec::new(),
-            mean: course(0),
+            mean: quartiles(0),
             lowest,
         })
     }
-}
 
-/// Lines that differ in color and dash.
-const LOOKS: [(Color, Dash); 5] = [
-    (palette::GOAL, Dash::Dotted),
-    (palette::START, Dash::Dashed),
-    (palette::REVERSE, Dash::Solid),
-    (palette::WAYPOINTS, Dash::Dashed),
-    (palette::FORWARD, Dash::Solid),
-];
-
-/// Figure 12: both costs of all methods.
-pub(super) fn picture(courses: &[Course]) -> Picture {
-    let chart = |title: &str, of: fn(&Course) -> &[Option<[f64; 3]>]| Chart {
-        title: title.to_owned(),
-        x: Axis::named("generation"),
-        y: Axis::named("J"),
-        ribbons: lines(courses, |course, color, _| Ribbon {
-            label: String::new(),
-            points: points(of(course))
-                .map(|(x, [low, _, high])| [x, low, high])
-                .collect(),
-            color,
-        }),
-        series: lines(courses, |course, color, dash| Series {
-            dash,
-            ..Series::new(
-                &course.method,
-                points(of(course))
-                    .map(|(x, [_, median, _])| Point2::new(x, median))
-                    .collect(),
-                color,
-            )
-        }),
-        height_px: 300.0,
-        ..Chart::default()
-    };
-    Picture {
-        title: "cost by generation".to_owned(),
-        charts: vec![
-            chart("mean cost J of a generation", |course| &course.mean),
-            chart("lowest cost J so far", |course| &course.lowest),
-        ],
-        ..Picture::default()
+    /// The lowest cost so far over one of the measures of [`Progress`].
+    fn by_progress(&self, which: usize) -> Vec<[f64; 4]> {
+        let run = |run: &Vec<Progress>| run.iter().map(|at| [at[which], at[2]]).collect();
+        let runs: Vec<Vec<[f64; 2]>> = self.progress.iter().map(run).collect();
+        Trend::of_runs(&self.method, &runs, AxisScale::Log).points
     }
 }
 
-/// The lowest cost so far by generation, by paths tried and by time.
-pub(super) fn bands(courses: &[Course]) -> Bands {
-    let by_generation = |course: &Course| report::Course {
-        name: course.method.clone(),
-        points: points(&course.lowest)
-            .map(|(x, [low, median, high])| [x, low, median, high])
-            .collect(),
-    };
-    let by = |which: usize| {
-        move |course: &Course| {
-            let run = |run: &Vec<Progress>| run.iter().map(|at| [at[which], at[2]]).collect();
-            let runs: Vec<Vec<[f64; 2]>> = course.progress.iter().map(run).collect();
-            report::Course::of_runs(&course.method, &runs, ScaleKind::Log)
-        }
-    };
-    let panel = |x: &str, x_scale, of: &dyn Fn(&Course) -> report::Course| BandPanel {
+/// Figure 12: the mean cost of all methods by generation.
+pub(super) fn means(histories: &[CostHistory]) -> Trends {
+    Trends {
+        caption: "Mean cost J of each generation, as in figure 12 of the paper: medians over the \
+                  seeds, and quartiles as bands. A run that stopped keeps its last values."
+            .to_owned(),
+        quantity: "mean J of a generation".to_owned(),
+        panels: vec![TrendPanel {
+            x: "generation".to_owned(),
+            trends: trends(histories, |history| by_generation(&history.mean)),
+            ..TrendPanel::default()
+        }],
+        ..Trends::default()
+    }
+}
+
+/// Figure 12: the lowest cost so far by generation, by paths tried and by time.
+pub(super) fn lowest(histories: &[CostHistory]) -> Trends {
+    let panel = |x: &str, which: usize| TrendPanel {
         x: x.to_owned(),
-        x_scale,
-        courses: courses.iter().map(of).collect(),
+        x_scale: AxisScale::Log,
+        trends: trends(histories, |history| history.by_progress(which)),
     };
-    Bands {
-        caption: "Lowest cost J so far, medians and quartiles over the seeds, by generation, by \
-                  paths tried (ants, or individuals) and by time since the map set-up began, less \
-                  the time that watching took."
+    Trends {
+        caption: "Lowest cost J so far, as in figure 12 of the paper: medians and quartiles over \
+                  the seeds, by generation, by paths tried (ants, or individuals) and by time \
+                  since the map set-up began, less the time that watching took."
             .to_owned(),
         quantity: "lowest J so far".to_owned(),
-        y_scale: ScaleKind::Linear,
         panels: vec![
-            panel("generation", ScaleKind::Linear, &by_generation),
-            panel("paths tried", ScaleKind::Log, &by(0)),
-            panel("time, ms", ScaleKind::Log, &by(1)),
+            TrendPanel {
+                x: "generation".to_owned(),
+                trends: trends(histories, |history| by_generation(&history.lowest)),
+                ..TrendPanel::default()
+            },
+            panel("paths tried", 0),
+            panel("time, ms", 1),
         ],
+        ..Trends::default()
     }
 }
 
-fn lines<T>(courses: &[Course], line: impl Fn(&Course, Color, Dash) -> T) -> Vec<T> {
-    let looks = LOOKS.iter().cycle();
-    let pairs = courses.iter().zip(looks);
-    pairs
-        .map(|(course, &(color, dash))| line(course, color, dash))
-        .collect()
+/// A trend per method.
+fn trends(histories: &[CostHistory], points: impl Fn(&CostHistory) -> Vec<[f64; 4]>) -> Vec<Trend> {
+    let trend = |history: &CostHistory| Trend {
+        name: history.method.clone(),
+        points: points(history),
+    };
+    histories.iter().map(trend).collect()
 }
 
 /// Generations from 1 on that have a value.
-fn points(values: &[Option<[f64; 3]>]) -> impl Iterator<Item = (f64, [f64; 3])> {
+fn by_generation(values: &[Option<[f64; 3]>]) -> Vec<[f64; 4]> {
     let numbered = values.iter().enumerate();
-    numbered.filter_map(|(i, value)| Some((i as f64 + 1.0, (*value)?)))
+    let point = |(i, value): (usize, &Option<[f64; 3]>)| {
+        let [low, median, high] = (*value)?;
+        Some([i as f64 + 1.0, low, median, high])
+    };
+    numbered.filter_map(point).collect()
 }
 
 #[cfg(test)]
@@ -273,10 +250,10 @@ mod tests {
             vec![[None, None], [Some(3.0), Some(2.0)]],
             vec![[Some(5.0), Some(4.0)]],
         ];
-        let course = Course::new("x", &runs).unwrap();
-        assert_eq!(course.mean, [Some([5.0; 3]), Some([3.5, 4.0, 4.5])]);
-        assert_eq!(course.lowest, [Some([4.0; 3]), Some([2.5, 3.0, 3.5])]);
-        assert!(Course::new("x", &[Vec::new()]).is_none());
-        assert!(Course::new("x", &[vec![[None, None]]]).is_none());
+        let history = CostHistory::new("x", &runs).unwrap();
+        assert_eq!(history.mean, [Some([5.0; 3]), Some([3.5, 4.0, 4.5])]);
+        assert_eq!(history.lowest, [Some([4.0; 3]), Some([2.5, 3.0, 3.5])]);
+        assert!(CostHistory::new("x", &[Vec::new()]).is_none());
+        assert!(CostHistory::new("x", &[vec![[None, None]]]).is_none());
     }
 }

@@ -16,16 +16,16 @@ mod scaling;
 mod tables;
 mod turns;
 
-use crate::papers::correspondence::{self, NOT_MADE, Place};
+use crate::papers::correspondence;
 use crate::papers::experiment::{Ground, Scale, Setup, Variant};
 use crate::papers::parameters;
 use crate::papers::reproduction::{Reproduction, at_a_time, configs_of, csv, facts_of, seeds};
-use crate::report::{Block, Fact, Figure, Report, Section};
+use crate::report::{Block, Fact, Report, Section};
 use crate::run::pool;
 use ablation::ABLATION;
 use anyhow::Result;
 use drive::{Drive, Exhibit, Job};
-use generations::Course;
+use generations::CostHistory;
 use grounds::{hood, neighborhood, shortest_m};
 use methods::{Method, Native, methods};
 use tables::{COMPARISON, Comparison, over_scenarios};
@@ -67,7 +67,7 @@ struct Plan {
 struct Findings {
     drives: Vec<Drive>,
     exhibits: Vec<Exhibit>,
-    courses: Vec<Course>,
+    cost_histories: Vec<CostHistory>,
     /// Grounds of the scaling experiment.
     grown: Vec<Ground>,
 }
@@ -118,8 +118,8 @@ impl Plan {
                 "{}: {}, by generation",
                 self.ground.map, variant.name
             ));
-            let course = generations::watch(job, method.generations, &exhibit, self.scale.n_runs)?;
-            findings.courses.extend(course);
+            let history = generations::watch(job, method.generations, &exhibit, self.scale.n_runs)?;
+            findings.cost_histories.extend(history);
             findings.exhibits.push(exhibit);
         }
         Ok(())
@@ -177,20 +177,23 @@ impl Plan {
         let claims = claims::claims(&findings.drives, &names, &self.ground.map);
         let mut sections = vec![
             claims.verdicts(),
-            of_tables(
+            Section::new(
                 "Length, success and time: Table 1",
-                vec![comparison.lengths(), comparison.times()],
+                vec![
+                    Block::Table(comparison.lengths()),
+                    Block::Table(comparison.times()),
+                    Block::Text(paper::remark()),
+                ],
             ),
-            of_tables(
+            Section::new(
                 "Turns: Table 2",
                 vec![
-                    comparison.native_shares(),
-                    comparison.curve_shares(),
-                    comparison.smoothness(),
+                    Block::Table(comparison.native_shares()),
+                    Block::Table(comparison.curve_shares()),
+                    Block::Table(comparison.smoothness()),
                 ],
             ),
         ];
-        sections[1].blocks.push(Block::Text(paper::remark()));
         sections.push(pictures::spreads(
             &findings.drives,
             &names,
@@ -204,7 +207,7 @@ impl Plan {
             let own = Variant::of(subject.planner);
             sections.push(parameters::section(parameters::LI2024, &own)?);
         }
-        sections.push(correspondence::section(&PLACES));
+        sections.push(correspondence::section(PLACES));
         Ok(Report {
             name: "li2024".to_owned(),
             title: "Li et al. 2024: FACO and its rivals".to_owned(),
@@ -249,10 +252,7 @@ impl Plan {
                 path.display()
             )),
         };
-        Section {
-            heading: "A second neighborhood: hood_800x500".to_owned(),
-            blocks: vec![block],
-        }
+        Section::new("A second neighborhood: hood_800x500", vec![block])
     }
 
     fn figures(&self, findings: &Findings) -> Vec<Section> {
@@ -261,26 +261,15 @@ impl Plan {
         let paths = paths.map(|exhibit| figures::path_figure(&self.ground, exhibit, part));
         let mut sections = vec![
             pictures::map(&self.ground, &findings.exhibits, part),
-            Section {
-                heading: "Paths: figures 5 to 11".to_owned(),
-                blocks: paths.map(Block::Figure).collect(),
-            },
+            Section::new("Paths: figures 5 to 11", paths.map(Block::Figure).collect()),
         ];
-        if !findings.courses.is_empty() {
-            let figure = Figure {
-                caption: "Mean cost J of each generation, and the lowest so far, which the paper \
-                          shows in figure 12: medians over the seeds, and quartiles as bands. A \
-                          run that stopped keeps its last values."
-                    .to_owned(),
-                svg: generations::picture(&findings.courses).to_svg(),
-            };
-            sections.push(Section {
-                heading: "Cost by generation: figure 12".to_owned(),
-                blocks: vec![
-                    Block::Figure(figure),
-                    Block::Bands(generations::bands(&findings.courses)),
-                ],
-            });
+        let histories = &findings.cost_histories;
+        if !histories.is_empty() {
+            let plots = vec![
+                Block::Trends(generations::means(histories)),
+                Block::Trends(generations::lowest(histories)),
+            ];
+            sections.push(Section::new("Cost by generation: figure 12", plots));
         }
         sections
     }
@@ -301,57 +290,7 @@ fn job<'a>(
     }
 }
 
-fn of_tables(heading: &str, tables: Vec<crate::report::Table>) -> Section {
-    Section {
-        heading: heading.to_owned(),
-        blocks: tables.into_iter().map(Block::Table).collect(),
-    }
-}
-
-const PLACES: [Place; 14] = [
-    [
-        "Figure 1",
-        NOT_MADE,
-        "concept drawing: wheels, suspension and the turning circle",
-    ],
-    [
-        "Figure 2",
-        NOT_MADE,
-        "concept drawing: a footprint with its margin",
-    ],
-    [
-        "Figure 3",
-        NOT_MADE,
-        "concept drawing: turns between points of a path",
-    ],
-    [
-        "Figure 4",
-        "Map: figure 4",
-        "(a), (c) and (d) are photographs; of (b), the map, ours has the same size",
-    ],
-    ["Figure 5", "Paths: figures 5 to 11", "astar"],
-    ["Figure 6", "Paths: figures 5 to 11", "improved-astar"],
-    ["Figure 7", "Paths: figures 5 to 11", "ga"],
-    ["Figure 8", "Paths: figures 5 to 11", "aga"],
-    ["Figure 9", "Paths: figures 5 to 11", "aco"],
-    ["Figure 10", "Paths: figures 5 to 11", "acof"],
-    ["Figure 11", "Paths: figures 5 to 11", "faco2024"],
-    [
-        "Figure 12",
-        "Cost by generation: figure 12",
-        "mean and lowest J, and the lowest by paths tried and time",
-    ],
-    [
-        "Table 1",
-        "Length, success and time: Table 1",
-        "31 runs per method, not ten",
-    ],
-    [
-        "Table 2",
-        "Turns: Table 2",
-        "on the vertices of each method, and on equal steps of the certified curve",
-    ],
-];
+const PLACES: &str = include_str!("figures.txt");
 
 #[cfg(test)]
 mod tests;

@@ -1,12 +1,15 @@
 //! All methods in one picture.
 
+use super::claims::{DRIVEN, LENGTH, STEP, TIME};
 use super::drive::{Drive, Exhibit};
-use super::group::Group;
+use super::group::drives_of;
 use super::methods::PROPOSED;
 use super::tables::COMPARISON;
 use crate::papers::experiment::Ground;
-use crate::report::{Block, BoxGroup, BoxPlot, Overlay, OverlayPath, ScaleKind, Section, strips};
+use crate::papers::group::Quantity;
+use crate::report::{Block, BoxPlot, Overlay, OverlayPath, Section, strips};
 use formicar::geometry::Point2;
+use formicar::render::AxisScale;
 
 /// The whole map, then all paths in the part that holds them, then what the proposed method's path
 /// is like along its length.
@@ -50,52 +53,36 @@ pub(super) fn map(ground: &Ground, exhibits: &[Exhibit], part: (Point2, Point2))
         Some(strips(&caption, (&ground.grid, &ground.vehicle), path))
     });
     let figures = [whole.figure(), all.figure()].into_iter().chain(along);
-    Section {
-        heading: "Map: figure 4".to_owned(),
-        blocks: figures.map(Block::Figure).collect(),
-    }
+    Section::new("Map: figure 4", figures.map(Block::Figure).collect())
 }
 
-/// A number of a run, its name, and whether its axis is logarithmic.
-type Spread = (&'static str, ScaleKind, fn(&Drive) -> Option<f64>);
-
-const SPREADS: [Spread; 4] = [
-    ("path before rounding, m", ScaleKind::Linear, |drive| {
-        drive.native_length_m
-    }),
-    ("certified curve, m", ScaleKind::Linear, |drive| {
-        drive.certified_length_m
-    }),
-    ("map set-up and query, ms", ScaleKind::Log, |drive| {
-        Some(drive.total_ms)
-    }),
-    (
-        "largest turn over 1 m, degrees",
-        ScaleKind::Linear,
-        |drive| drive.largest_step_deg,
-    ),
+/// Quantities with a logarithmic or linear axis.
+const SPREADS: [(Quantity<Drive>, AxisScale); 4] = [
+    (LENGTH, AxisScale::Linear),
+    (DRIVEN, AxisScale::Linear),
+    (TIME, AxisScale::Log),
+    (STEP, AxisScale::Linear),
 ];
 
 /// Box plots of all methods.
 pub(super) fn spreads(drives: &[Drive], methods: &[&str], ground: &str) -> Section {
-    let plot = |&(quantity, scale, of): &Spread| BoxPlot {
-        caption: format!(
-            "`{ground}`, {quantity}: boxes from quartile to quartile, whiskers to the farthest \
-             value within 1.5 box lengths, dots are runs."
-        ),
-        quantity: quantity.to_owned(),
-        scale,
-        groups: methods
-            .iter()
-            .map(|method| BoxGroup {
-                name: (*method).to_owned(),
-                values: Group::new(drives, COMPARISON, method).on(ground).values(of),
-            })
-            .collect(),
-        reference: None,
+    let plot = |(quantity, scale): &(Quantity<Drive>, AxisScale)| {
+        let group = |method: &&str| {
+            let group = drives_of(drives, COMPARISON, method).on(ground);
+            group.boxed(method, quantity.of)
+        };
+        BoxPlot {
+            caption: format!(
+                "`{ground}`, {}: boxes from quartile to quartile, whiskers to the farthest value \
+                 within 1.5 box lengths, dots are runs.",
+                quantity.name
+            ),
+            quantity: quantity.name.to_owned(),
+            scale: *scale,
+            groups: methods.iter().map(group).collect(),
+            reference: None,
+        }
     };
-    Section {
-        heading: "How runs are spread".to_owned(),
-        blocks: SPREADS.iter().map(plot).map(Block::BoxPlot).collect(),
-    }
+    let plots = SPREADS.iter().map(plot).map(Block::BoxPlot);
+    Section::new("How runs are spread", plots.collect())
 }

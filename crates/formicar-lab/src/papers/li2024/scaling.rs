@@ -1,10 +1,11 @@
-//! How the time of the proposed method grows with the map.
+//! Growth of the proposed method's time with the map.
 
 use super::drive::{Drive, Job};
 use super::grounds::shortest_m;
-use super::group::{Group, ratio};
+use super::group::drives_of;
 use super::methods::{Method, PROPOSED};
 use crate::papers::experiment::{Ground, Scale, Variant};
+use crate::papers::group::ratio;
 use crate::report::{Field, Table};
 use anyhow::Result;
 use formicar::map::generate::{NeighborhoodParameters, alley_neighborhood, free_pose_pairs};
@@ -95,31 +96,30 @@ pub(super) fn table(drives: &[Drive], method: &str) -> Table {
          across the whole map: medians with quartiles of map set-up and query, and the median per \
          cell of the map over that of the smallest map."
     );
-    let mut table = Table::new(
-        SCALING,
-        &[
-            "cells",
-            "certified",
-            "shortest m",
-            "time ms",
-            "per cell ns",
-            "per cell / smallest",
-        ],
-    )
-    .captioned(&caption);
+    let heading = [
+        "cells",
+        "certified",
+        "shortest m",
+        "time ms",
+        "per cell ns",
+        "per cell / smallest",
+    ];
+    let mut table = Table::new(SCALING, &heading).captioned(&caption);
     let mut smallest = None;
     for size in SIZES {
-        let group = Group::new(drives, SCALING, method).starting(&name(size));
-        if group.runs().is_empty() {
+        let name = name(size);
+        let group = drives_of(drives, SCALING, method);
+        let group = group.filter(|drive| drive.ground.starts_with(&name));
+        if group.len() == 0 {
             continue;
         }
         let n_cells = (size[0] * size[1]) as f64;
         let per_cell_ns = group.median(|drive| Some(1e6 * drive.total_ms / n_cells));
         smallest = smallest.or(per_cell_ns);
         table.row(vec![
-            Field::Words(name(size)),
+            Field::Words(name),
             group.certified(),
-            Field::Number(group.median(|drive| drive.shortest_m), 1),
+            group.number(|drive| drive.shortest_m, 1),
             group.spread(|drive| Some(drive.total_ms), 1),
             Field::Number(per_cell_ns, 1),
             Field::Number(ratio(per_cell_ns, smallest), 2),

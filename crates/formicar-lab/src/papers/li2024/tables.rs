@@ -1,9 +1,10 @@
 //! The paper's two tables beside ours.
 
 use super::drive::Drive;
-use super::group::{Group, ratio};
+use super::group::{Drives, drives_of};
 use super::methods::{Method, Native, PROPOSED, YARDSTICK};
 use super::paper::stated;
+use crate::papers::group::{Column, ratio, table_of};
 use crate::report::{Field, Table};
 
 /// The part of the experiment in which methods are compared.
@@ -18,12 +19,13 @@ pub(super) struct Comparison<'a> {
 }
 
 impl<'a> Comparison<'a> {
-    fn group(&self, method: &str) -> Group<'a> {
-        Group::new(self.drives, COMPARISON, method).on(self.ground)
+    fn group(&self, method: &str) -> Drives<'a> {
+        drives_of(self.drives, COMPARISON, method).on(self.ground)
     }
 
-    fn names(&self) -> impl Iterator<Item = &'static str> {
-        self.methods.iter().map(|method| method.planner.name())
+    fn groups(&self) -> impl Iterator<Item = (&'static str, Drives<'a>)> {
+        let names = self.methods.iter().map(|method| method.planner.name());
+        names.map(|name| (name, self.group(name)))
     }
 
     /// Table 1, length and success.
@@ -32,40 +34,30 @@ impl<'a> Comparison<'a> {
                        quartiles over the runs. `path` is the length before corners are rounded, \
                        which the paper compares, `driven` that of certified curves. The map is our \
                        own: lengths compare as ratios.";
-        let mut table = Table::new(
-            "length",
-            &[
-                "method",
-                "certified",
-                "paper's success %",
-                "path m",
-                "driven m",
-                "path / faco2024",
-                "paper m",
-                "paper's m / FACO",
-                "path / paper",
-            ],
-        )
-        .captioned(caption);
         let path = |drive: &Drive| drive.native_length_m;
         let proposed = self.group(PROPOSED).median(path);
-        let papers = stated(PROPOSED).map(|row| row.length_m);
-        for name in self.names() {
-            let (group, paper) = (self.group(name), stated(name));
-            let (ours, theirs) = (group.median(path), paper.map(|row| row.length_m));
-            table.row(vec![
-                Field::words(name),
-                group.certified(),
-                Field::Number(paper.map(|row| row.success_percent), 0),
-                group.spread(path, 2),
-                group.spread(|drive| drive.certified_length_m, 2),
-                Field::Number(ratio(ours, proposed), 3),
-                Field::Number(theirs, 2),
-                Field::Number(ratio(theirs, papers), 3),
-                Field::Number(ratio(ours, theirs), 3),
-            ]);
-        }
-        table
+        let stated_m = |name: &str| stated(name).map(|row| row.length_m);
+        let columns: [Column<Drive>; 8] = [
+            ("certified", &|g, _| g.certified()),
+            ("paper's success %", &|_, name| {
+                Field::Number(stated(name).map(|row| row.success_percent), 0)
+            }),
+            ("path m", &|g, _| g.spread(path, 2)),
+            ("driven m", &|g, _| {
+                g.spread(|drive| drive.certified_length_m, 2)
+            }),
+            ("path / faco2024", &|g, _| {
+                Field::Number(ratio(g.median(path), proposed), 3)
+            }),
+            ("paper m", &|_, name| Field::Number(stated_m(name), 2)),
+            ("paper's m / FACO", &|_, name| {
+                Field::Number(ratio(stated_m(name), stated_m(PROPOSED)), 3)
+            }),
+            ("path / paper", &|g, name| {
+                Field::Number(ratio(g.median(path), stated_m(name)), 3)
+            }),
+        ];
+        table_of("length", "method", &columns, self.groups()).captioned(caption)
     }
 
     /// Table 1, time: all methods in one run.
@@ -73,40 +65,29 @@ impl<'a> Comparison<'a> {
         let caption = "Table 1 of the paper, time, beside ours: map set-up and query on one \
                        thread, medians with quartiles. `first path` is the time to the first \
                        certified path.";
-        let mut table = Table::new(
-            "time",
-            &[
-                "method",
-                "time ms",
-                "first path ms",
-                "time / astar",
-                "time / faco2024",
-                "paper s",
-                "paper's s / A*",
-                "paper's s / FACO",
-                "paper's time / ours",
-            ],
-        )
-        .captioned(caption);
         let time = |drive: &Drive| Some(drive.total_ms);
         let [yardstick, proposed] = [YARDSTICK, PROPOSED].map(|name| self.group(name).median(time));
-        let paper = |name: &str| stated(name).map(|row| row.time_s);
-        for name in self.names() {
-            let group = self.group(name);
-            let (ours, theirs) = (group.median(time), paper(name));
-            table.row(vec![
-                Field::words(name),
-                group.spread(time, 1),
-                group.spread(|drive| drive.first_feasible_ms, 1),
-                Field::Number(ratio(ours, yardstick), 2),
-                Field::Number(ratio(ours, proposed), 2),
-                Field::Number(theirs, 2),
-                Field::Number(ratio(theirs, paper(YARDSTICK)), 3),
-                Field::Number(ratio(theirs, paper(PROPOSED)), 2),
-                Field::Number(ratio(theirs.map(|s| 1e3 * s), ours), 0),
-            ]);
-        }
-        table
+        let paper_s = |name: &str| stated(name).map(|row| row.time_s);
+        let over = |value: Option<f64>, to: Option<f64>, n| Field::Number(ratio(value, to), n);
+        let columns: [Column<Drive>; 8] = [
+            ("time ms", &|g, _| g.spread(time, 1)),
+            ("first path ms", &|g, _| {
+                g.spread(|drive| drive.first_feasible_ms, 1)
+            }),
+            ("time / astar", &|g, _| over(g.median(time), yardstick, 2)),
+            ("time / faco2024", &|g, _| over(g.median(time), proposed, 2)),
+            ("paper s", &|_, name| Field::Number(paper_s(name), 2)),
+            ("paper's s / A*", &|_, name| {
+                over(paper_s(name), paper_s(YARDSTICK), 3)
+            }),
+            ("paper's s / FACO", &|_, name| {
+                over(paper_s(name), paper_s(PROPOSED), 2)
+            }),
+            ("paper's time / ours", &|g, name| {
+                over(paper_s(name).map(|s| 1e3 * s), g.median(time), 0)
+            }),
+        ];
+        table_of("time", "method", &columns, self.groups()).captioned(caption)
     }
 
     /// Table 2 on the vertices that a method finds.
@@ -165,21 +146,17 @@ impl<'a> Comparison<'a> {
         let caption = "Table 2 on the certified curves: shares of turns over equal steps of one \
                        cell and of 1 m, in percent, means over the runs. Over 0.2 m any curve of \
                        2.29 m radius or more stays below 5 degrees by itself.";
-        let mut table = Table::new(
-            "curve",
-            &[
-                "method",
-                "0-5 deg, 0.2 m",
-                "5-10 deg, 0.2 m",
-                ">10 deg, 0.2 m",
-                "0-5 deg, 1 m",
-                "5-10 deg, 1 m",
-                ">10 deg, 1 m",
-            ],
-        )
-        .captioned(caption);
-        for name in self.names() {
-            let group = self.group(name);
+        let heading = [
+            "method",
+            "0-5 deg, 0.2 m",
+            "5-10 deg, 0.2 m",
+            ">10 deg, 0.2 m",
+            "0-5 deg, 1 m",
+            "5-10 deg, 1 m",
+            ">10 deg, 1 m",
+        ];
+        let mut table = Table::new("curve", &heading).captioned(caption);
+        for (name, group) in self.groups() {
             let mut row = vec![Field::words(name)];
             row.extend(percent(&group, FINE));
             row.extend(percent(&group, COARSE));
@@ -188,36 +165,28 @@ impl<'a> Comparison<'a> {
         table
     }
 
-    /// What the certified curves are like.
+    /// The smoothness of the certified curves.
     pub(super) fn smoothness(&self) -> Table {
         let caption = "The certified curves, medians with quartiles: joints where the curvature \
                        jumps, changes of gear, the largest turn over a step of 1 m, the least \
                        clearance of the body; and the cost J of the path before corners are \
                        rounded (equation 15, lower is better).";
-        let mut table = Table::new(
-            "smoothness",
-            &[
-                "method",
-                "curvature jumps",
-                "cusps",
-                "largest step deg",
-                "clearance m",
-                "J",
-            ],
-        )
-        .captioned(caption);
-        for name in self.names() {
-            let group = self.group(name);
-            table.row(vec![
-                Field::words(name),
-                group.spread(|drive| Some(drive.n_curvature_jumps? as f64), 0),
-                group.spread(|drive| Some(drive.n_cusps? as f64), 0),
-                group.spread(|drive| drive.largest_step_deg, 1),
-                group.spread(|drive| drive.min_clearance_m, 3),
-                group.spread(|drive| drive.cost, 4),
-            ]);
-        }
-        table
+        let columns: [Column<Drive>; 5] = [
+            ("curvature jumps", &|g, _| {
+                g.spread(|d| Some(d.n_curvature_jumps? as f64), 0)
+            }),
+            ("cusps", &|g, _| {
+                g.spread(|drive| Some(drive.n_cusps? as f64), 0)
+            }),
+            ("largest step deg", &|g, _| {
+                g.spread(|drive| drive.largest_step_deg, 1)
+            }),
+            ("clearance m", &|g, _| {
+                g.spread(|drive| drive.min_clearance_m, 3)
+            }),
+            ("J", &|g, _| g.spread(|drive| drive.cost, 4)),
+        ];
+        table_of("smoothness", "method", &columns, self.groups()).captioned(caption)
     }
 }
 
@@ -244,7 +213,7 @@ const COARSE: Shares = [
     |d| d.coarse_over_10_deg,
 ];
 
-fn percent(group: &Group, shares: Shares) -> [Field; 3] {
+fn percent(group: &Drives, shares: Shares) -> [Field; 3] {
     shares.map(|share| Field::Number(group.mean(share).map(|share| 100.0 * share), 2))
 }
 
@@ -253,34 +222,28 @@ pub(super) fn over_scenarios(drives: &[Drive], methods: &[Method], part: &str) -
     let caption = "All scenarios together: `path` and `driven` over the length of the shortest \
                    way over cells, the share of turns up to 10 degrees over 1 m, and times of map \
                    set-up and query; medians with quartiles.";
-    let mut table = Table::new(
-        part,
-        &[
-            "method",
-            "certified",
-            "path / shortest",
-            "driven / shortest",
-            "to 10 deg, 1 m, %",
-            "curvature jumps",
-            "time ms",
-            "time / astar",
-        ],
-    )
-    .captioned(caption);
     let time = |drive: &Drive| Some(drive.total_ms);
-    let yardstick = Group::new(drives, part, YARDSTICK).median(time);
-    for name in methods.iter().map(|method| method.planner.name()) {
-        let group = Group::new(drives, part, name);
-        table.row(vec![
-            Field::words(name),
-            group.certified(),
-            group.spread(|drive| ratio(drive.native_length_m, drive.shortest_m), 3),
-            group.spread(|drive| ratio(drive.certified_length_m, drive.shortest_m), 3),
-            group.spread(|drive| Some(100.0 * (1.0 - drive.coarse_over_10_deg?)), 1),
-            group.spread(|drive| Some(drive.n_curvature_jumps? as f64), 0),
-            group.spread(time, 1),
-            Field::Number(ratio(group.median(time), yardstick), 2),
-        ]);
-    }
-    table
+    let yardstick = drives_of(drives, part, YARDSTICK).median(time);
+    let names = methods.iter().map(|method| method.planner.name());
+    let groups = names.map(|name| (name, drives_of(drives, part, name)));
+    let columns: [Column<Drive>; 7] = [
+        ("certified", &|g, _| g.certified()),
+        ("path / shortest", &|g, _| {
+            g.spread(|d| ratio(d.native_length_m, d.shortest_m), 3)
+        }),
+        ("driven / shortest", &|g, _| {
+            g.spread(|d| ratio(d.certified_length_m, d.shortest_m), 3)
+        }),
+        ("to 10 deg, 1 m, %", &|g, _| {
+            g.spread(|drive| Some(100.0 * (1.0 - drive.coarse_over_10_deg?)), 1)
+        }),
+        ("curvature jumps", &|g, _| {
+            g.spread(|d| Some(d.n_curvature_jumps? as f64), 0)
+        }),
+        ("time ms", &|g, _| g.spread(time, 1)),
+        ("time / astar", &|g, _| {
+            Field::Number(ratio(g.median(time), yardstick), 2)
+        }),
+    ];
+    table_of(part, "method", &columns, groups).captioned(caption)
 }

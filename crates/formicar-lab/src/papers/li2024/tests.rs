@@ -1,7 +1,7 @@
 //! The whole experiment in small, with methods that stand in for those of the paper.
 
 use super::*;
-use crate::report::{Field, Table};
+use crate::report::{Field, Figure, Table};
 use methods::Generations;
 
 fn method(name: &str, native: Native, generations: Generations) -> Method {
@@ -78,17 +78,12 @@ fn tables_and_figures_come_from_the_rows() {
         })
         .sum();
     assert!((sum - 100.0).abs() < 1e-9, "{sum}");
-    let svgs: Vec<&Figure> = report
-        .sections
-        .iter()
-        .flat_map(|section| &section.blocks)
-        .filter_map(|block| match block {
-            Block::Figure(figure) => Some(figure),
-            _ => None,
-        })
-        .collect();
-    // The map, all paths, a path of each method, and the courses of both colonies.
-    assert_eq!(svgs.len(), 7);
+    let blocks = report.sections.iter().flat_map(|section| &section.blocks);
+    let n_of = |is_it: fn(&&Block) -> bool| blocks.clone().filter(is_it).count();
+    // The map, all paths, and a path of each method; the costs of both colonies.
+    assert_eq!(n_of(|block| matches!(block, Block::Figure(_))), 6);
+    assert_eq!(n_of(|block| matches!(block, Block::Trends(_))), 2);
+    let svgs: Vec<Figure> = blocks.clone().filter_map(Block::figure).collect();
     assert!(svgs.iter().all(|figure| figure.svg.starts_with("<svg ")));
     assert_eq!(reproduction.configs.len(), 4 + 2);
 }

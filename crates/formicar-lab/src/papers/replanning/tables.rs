@@ -1,17 +1,13 @@
-//! What the drives come to.
+//! Tables of the drives.
 
 use super::drive::Step;
-use crate::analysis::statistics::{quantile, quartiles};
+use crate::analysis::statistics::quantile;
+use crate::papers::group::{Column, Group, distinct, table_of};
 use crate::report::{Field, Report, Section, Table};
 
 /// The tables: all maps together, and each map.
 pub(super) fn report(steps: &[Step]) -> Report {
-    let mut maps: Vec<&str> = Vec::new();
-    for step in steps {
-        if !maps.contains(&step.map.as_str()) {
-            maps.push(&step.map);
-        }
-    }
+    let maps = distinct(steps.iter().map(|step| step.map.as_str()));
     let all = Section::of_table("All maps", table("all", steps, |_| true));
     let each = maps.iter().map(|&map| {
         let table = table(map, steps, |step| step.map == map);
@@ -35,51 +31,31 @@ pub(super) fn report(steps: &[Step]) -> Report {
 }
 
 fn table(key: &str, steps: &[Step], belongs: impl Fn(&Step) -> bool) -> Table {
-    let heading = [
-        "method", "found", "flips", "needless", "kept", "cost", "dearer", "update", "first",
-        "query", "anew",
+    let methods = distinct(steps.iter().map(|step| step.method.as_str()));
+    let groups = methods.into_iter().map(|method| {
+        let is_own = |step: &Step| belongs(step) && step.method == method;
+        (method, Group::of(steps, is_own))
+    });
+    let found = |g: &Group<Step>| g.count(|step| step.found);
+    let free = |g: &Group<Step>| g.count(|step| step.found && step.still_free);
+    let flips = |g: &Group<Step>| g.count(|step| step.flip == Some(true));
+    let needless = |g: &Group<Step>| g.count(|s| s.flip == Some(true) && s.still_free);
+    let cost = |step: &Step| Some(step.cost_m? / step.anew_cost_m?);
+    let columns: [Column<Step>; 10] = [
+        ("found", &|g, _| Field::Count(found(g), g.len())),
+        ("flips", &|g, _| Field::Rate(flips(g), found(g))),
+        ("needless", &|g, _| Field::Rate(needless(g), free(g))),
+        ("kept", &|g, _| {
+            Field::Number(g.mean(|step| step.kept_share), 3)
+        }),
+        ("cost", &|g, _| Field::Number(g.mean(cost), 4)),
+        ("dearer", &|g, _| {
+            Field::Number(quantile(&g.values(cost), 1.0), 3)
+        }),
+        ("update", &|g, _| g.spread(|step| Some(step.update_ms), 1)),
+        ("first", &|g, _| g.spread(|step| step.first_ms, 1)),
+        ("query", &|g, _| g.spread(|step| Some(step.query_ms), 1)),
+        ("anew", &|g, _| g.spread(|step| Some(step.anew_query_ms), 1)),
     ];
-    let mut table = Table::new(key, &heading);
-    let mut methods: Vec<&str> = Vec::new();
-    for step in steps {
-        if !methods.contains(&step.method.as_str()) {
-            methods.push(&step.method);
-        }
-    }
-    for method in methods {
-        let own = steps.iter().filter(|s| belongs(s) && s.method == method);
-        table.row(row(method, &own.collect::<Vec<_>>()));
-    }
-    table
-}
-
-fn row(method: &str, steps: &[&Step]) -> Vec<Field> {
-    let count = |is: &dyn Fn(&Step) -> bool| steps.iter().filter(|step| is(step)).count();
-    let values = |of: &dyn Fn(&Step) -> Option<f64>| -> Vec<f64> {
-        steps.iter().filter_map(|step| of(step)).collect()
-    };
-    let spread = |of: &dyn Fn(&Step) -> Option<f64>| Field::Spread(quartiles(&values(of)), 1);
-    let n_found = count(&|step| step.found);
-    let n_free = count(&|step| step.found && step.still_free);
-    let n_flips = count(&|step| step.flip == Some(true));
-    let n_needless = count(&|step| step.flip == Some(true) && step.still_free);
-    let kept = values(&|step| step.kept_share);
-    let costs = values(&|step| Some(step.cost_m? / step.anew_cost_m?));
-    vec![
-        Field::words(method),
-        Field::Count(n_found, steps.len()),
-        Field::Rate(n_flips, n_found),
-        Field::Rate(n_needless, n_free),
-        Field::Number(mean(&kept), 3),
-        Field::Number(mean(&costs), 4),
-        Field::Number(quantile(&costs, 1.0), 3),
-        spread(&|step| Some(step.update_ms)),
-        spread(&|step| step.first_ms),
-        spread(&|step| Some(step.query_ms)),
-        spread(&|step| Some(step.anew_query_ms)),
-    ]
-}
-
-fn mean(values: &[f64]) -> Option<f64> {
-    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+    table_of(key, "method", &columns, groups)
 }

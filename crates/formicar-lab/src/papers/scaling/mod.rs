@@ -1,4 +1,4 @@
-//! How cost grows with the cells of a map, the density of obstacles, the size of the vehicle, the
+//! Growth of cost with the cells of a map, the density of obstacles, the size of the vehicle, the
 //! ants and the threads: on logarithmic axes, with fitted exponents.
 
 mod axes;
@@ -7,20 +7,20 @@ mod sample;
 
 use crate::analysis::statistics::quartiles;
 use crate::papers::experiment::{Ground, Setup, Variant};
+use crate::papers::group::distinct;
 use crate::papers::reproduction::{Reproduction, configs_of, csv, facts_of, seeds};
-use crate::report::{
-    BandPanel, Bands, Block, Course, Fact, Field, Report, ScaleKind, Section, Table,
-};
+use crate::report::{Block, Fact, Field, Report, Section, Table, Trend, TrendPanel, Trends};
 use anyhow::Result;
 use axes::Quantity;
 use fit::PowerLaw;
 use formicar::geometry::Point2;
+use formicar::render::AxisScale;
 use sample::Sample;
 
 /// Seeds of each query: times differ little between seeds.
 const N_SEEDS: u64 = 3;
 
-/// What is measured of a query: quantity with unit, and how it is got.
+/// A measure of a query: its name with the unit, and its value.
 type Cost = (&'static str, fn(&Sample) -> f64);
 
 const COSTS: [Cost; 3] = [
@@ -84,20 +84,12 @@ const INTRO: &str = "Square fields of scattered obstacles, cells of 0.2 m, the v
 fn section(quantity: Quantity, samples: &[Sample]) -> Section {
     let of_it = samples.iter().filter(|s| s.quantity == quantity.key());
     let of_it: Vec<&Sample> = of_it.collect();
-    let mut planners: Vec<&str> = Vec::new();
-    for sample in &of_it {
-        if !planners.contains(&sample.planner.as_str()) {
-            planners.push(&sample.planner);
-        }
-    }
+    let planners = distinct(of_it.iter().map(|sample| sample.planner.as_str()));
     let mut blocks = vec![Block::Table(table(quantity, &of_it, &planners))];
     for cost in &COSTS {
-        blocks.push(Block::Bands(plot(quantity, cost, &of_it, &planners)));
+        blocks.push(Block::Trends(plot(quantity, cost, &of_it, &planners)));
     }
-    Section {
-        heading: format!("Over {}", quantity.about()),
-        blocks,
-    }
+    Section::new(format!("Over {}", quantity.about()), blocks)
 }
 
 fn table(quantity: Quantity, samples: &[&Sample], planners: &[&str]) -> Table {
@@ -159,30 +151,30 @@ fn medians(spreads: &[[f64; 4]]) -> Vec<Point2> {
 }
 
 /// Medians and quartiles on logarithmic axes, each planner with its exponent.
-fn plot(quantity: Quantity, cost: &Cost, samples: &[&Sample], planners: &[&str]) -> Bands {
+fn plot(quantity: Quantity, cost: &Cost, samples: &[&Sample], planners: &[&str]) -> Trends {
     let (name, value) = *cost;
-    let course = |planner: &&str| {
+    let trend = |planner: &&str| {
         let points = spreads(samples, planner, value);
         let exponent = PowerLaw::through(&medians(&points));
-        Course {
+        Trend {
             name: exponent.map_or((*planner).to_owned(), |law| {
                 format!("{planner}: {:.2}", law.exponent)
             }),
             points,
         }
     };
-    Bands {
+    Trends {
         caption: format!(
             "Over {}: medians of solved runs and the band between their quartiles; beside each \
              planner the exponent of the power law through its medians.",
             quantity.about()
         ),
         quantity: name.to_owned(),
-        y_scale: ScaleKind::Log,
-        panels: vec![BandPanel {
+        y_scale: AxisScale::Log,
+        panels: vec![TrendPanel {
             x: quantity.about().to_owned(),
-            x_scale: ScaleKind::Log,
-            courses: planners.iter().map(course).collect(),
+            x_scale: AxisScale::Log,
+            trends: planners.iter().map(trend).collect(),
         }],
     }
 }
@@ -220,11 +212,11 @@ mod tests {
         let row =
             "| astar | 9/10 | 1.00 | 1.000 | 2.00 | 1.000 | 1.00 | 1.000 | 1000 | 1000000.00 |";
         assert!(text.contains(row), "{text}");
-        let Block::Bands(bands) = &report.sections[0].blocks[2] else {
+        let Block::Trends(plot) = &report.sections[0].blocks[2] else {
             panic!("a plot of query times");
         };
-        let course = &bands.panels[0].courses[0];
-        assert_eq!(course.name, "astar: 2.00");
-        assert_eq!(course.points[0], [10.0, 99.5, 100.0, 100.5]);
+        let trend = &plot.panels[0].trends[0];
+        assert_eq!(trend.name, "astar: 2.00");
+        assert_eq!(trend.points[0], [10.0, 99.5, 100.0, 100.5]);
     }
 }

@@ -3,12 +3,13 @@
 use crate::analysis::statistics::quartiles;
 use crate::papers::claims::{Claim, Comparison, Expected};
 use crate::papers::experiment::Scale;
-use crate::report::{BandPanel, Bands, Block, Course, Field, ScaleKind, Section, Table};
+use crate::report::{Block, Field, Section, Table, Trend, TrendPanel, Trends};
 use anyhow::Result;
 use formicar::colony::Adjacency;
 use formicar::map::generate::{ScatterParameters, scattered_obstacles};
 use formicar::map::{BitGrid, DiagonalRule, MoveMasks};
 use formicar::numeric::Seed;
+use formicar::render::AxisScale;
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -68,10 +69,8 @@ fn times_ms(scale: Scale, mut work: impl FnMut()) -> Vec<f64> {
 
 /// Table 1 and figure 9.
 pub(super) fn section(timings: &[Timing]) -> Section {
-    Section {
-        heading: "Adjacency: Table 1 and figure 9".to_owned(),
-        blocks: vec![Block::Table(table(timings)), Block::Bands(figure(timings))],
-    }
+    let blocks = vec![Block::Table(table(timings)), Block::Trends(figure(timings))];
+    Section::new("Adjacency: Table 1 and figure 9", blocks)
 }
 
 fn table(timings: &[Timing]) -> Table {
@@ -113,8 +112,8 @@ fn table(timings: &[Timing]) -> Table {
 }
 
 /// Figure 9.
-fn figure(timings: &[Timing]) -> Bands {
-    let course = |name: &str, of: fn(&Timing) -> &Vec<f64>| Course {
+fn figure(timings: &[Timing]) -> Trends {
+    let trend = |name: &str, of: fn(&Timing) -> &Vec<f64>| Trend {
         name: name.to_owned(),
         points: timings
             .iter()
@@ -124,26 +123,26 @@ fn figure(timings: &[Timing]) -> Bands {
             })
             .collect(),
     };
-    Bands {
+    Trends {
         caption: "Figure 9: time of both calculations over the size of the map, both axes \
                   logarithmic, so that the slope is the exponent: about 2 for all pairs of cells, 1 \
                   for neighbors."
             .to_owned(),
         quantity: "time, ms".to_owned(),
-        y_scale: ScaleKind::Log,
-        panels: vec![BandPanel {
+        y_scale: AxisScale::Log,
+        panels: vec![TrendPanel {
             x: "cells".to_owned(),
-            x_scale: ScaleKind::Log,
-            courses: vec![
-                course("global", |timing| &timing.global),
-                course("analytical", |timing| &timing.analytical),
-                course("move masks", |timing| &timing.masks),
+            x_scale: AxisScale::Log,
+            trends: vec![
+                trend("global", |timing| &timing.global),
+                trend("analytical", |timing| &timing.analytical),
+                trend("move masks", |timing| &timing.masks),
             ],
         }],
     }
 }
 
-/// What the paper says of both.
+/// The claim of the paper about both.
 pub(super) fn claim(timings: &[Timing]) -> Claim {
     let compare = |timing: &Timing| Comparison {
         name: format!("{0} x {0}, analytical - global", timing.side),

@@ -1,26 +1,28 @@
-//! What the paper claims.
+//! The claims of the paper.
 
 use super::adjacency::{self, Timing};
 use super::{JOSHY, PROPOSED, ZHANG};
+use crate::papers::Trial;
 use crate::papers::claims::{Claim, Claims, Comparison, Counted, Expected};
-use crate::papers::trials::{Quantity, Runs};
+use crate::papers::group::Quantity;
+use crate::papers::trials::Runs;
 
-const LENGTH: Quantity = Quantity {
+const LENGTH: Quantity<Trial> = Quantity {
     name: "length, cells",
     n_decimals: 2,
     of: |trial| trial.length_cells,
 };
-const SQUEEZES: Quantity = Quantity {
+const SQUEEZES: Quantity<Trial> = Quantity {
     name: "steps through narrow aisles",
     n_decimals: 0,
     of: |trial| Some(trial.n_squeezes? as f64),
 };
-const CONVERGED: Quantity = Quantity {
+const CONVERGED: Quantity<Trial> = Quantity {
     name: "iterations to within 1 % of its best",
     n_decimals: 0,
     of: |trial| Some(f64::from(trial.n_to_1_percent?)),
 };
-const TIME: Quantity = Quantity {
+const TIME: Quantity<Trial> = Quantity {
     name: "search, ms",
     n_decimals: 1,
     of: |trial| Some(trial.search_ms),
@@ -32,11 +34,12 @@ pub(super) fn claims(runs: Runs, timings: &[Timing]) -> Claims {
     let against = |map: &str, other: &str, quantity, expected| {
         runs.compare(map, [PROPOSED, other], (quantity, expected))
     };
-    let both = |map: &str, quantity: Quantity, expected: Expected| -> Vec<Comparison> {
-        [ZHANG, JOSHY]
-            .map(|other| against(map, other, quantity, expected))
-            .to_vec()
-    };
+    let both =
+        |map: &str, quantity: &'static Quantity<Trial>, expected: Expected| -> Vec<Comparison> {
+            [ZHANG, JOSHY]
+                .map(|other| against(map, other, quantity, expected))
+                .to_vec()
+        };
     Claims(vec![
         Claim::counted(
             "Avoids the narrow aisles",
@@ -46,17 +49,17 @@ pub(super) fn claims(runs: Runs, timings: &[Timing]) -> Claims {
         Claim::paired(
             "The colony of reference 7 goes through the narrow aisles",
             ("sec. 4, fig. 6", "-"),
-            vec![against("wang-aisles", ZHANG, SQUEEZES, Expected::Less)],
+            vec![against("wang-aisles", ZHANG, &SQUEEZES, Expected::Less)],
         ),
         Claim::paired(
             "Finds a shorter way than reference 11 where there are aisles",
             ("sec. 4, fig. 6", "-"),
-            vec![against("wang-aisles", JOSHY, LENGTH, Expected::Less)],
+            vec![against("wang-aisles", JOSHY, &LENGTH, Expected::Less)],
         ),
         Claim::paired(
             "Without aisles all three find the same way",
             ("sec. 4, fig. 7(a)", "-"),
-            both("wang-open", LENGTH, SAME),
+            both("wang-open", &LENGTH, SAME),
         ),
         Claim::paired(
             "Without aisles it converges first",
@@ -64,17 +67,17 @@ pub(super) fn claims(runs: Runs, timings: &[Timing]) -> Claims {
                 "sec. 4, fig. 7(b)",
                 "iteration 20 : 40 (reference 7), 30 (11)",
             ),
-            both("wang-open", CONVERGED, Expected::Less),
+            both("wang-open", &CONVERGED, Expected::Less),
         ),
         Claim::paired(
             "On the third map it finds the same way as reference 11",
             ("sec. 4, fig. 8(a)", "-"),
-            vec![against("aco20", JOSHY, LENGTH, SAME)],
+            vec![against("aco20", JOSHY, &LENGTH, SAME)],
         ),
         Claim::paired(
             "On the third map it converges earlier than reference 11",
             ("sec. 4, fig. 8(b)", "-"),
-            vec![against("aco20", JOSHY, CONVERGED, Expected::Less)],
+            vec![against("aco20", JOSHY, &CONVERGED, Expected::Less)],
         ),
         adjacency::claim(timings),
         Claim::paired(
@@ -82,7 +85,7 @@ pub(super) fn claims(runs: Runs, timings: &[Timing]) -> Claims {
             ("sec. 5", "-"),
             super::MAPS
                 .iter()
-                .flat_map(|(map, _)| both(map, TIME, Expected::Less))
+                .flat_map(|(map, _)| both(map, &TIME, Expected::Less))
                 .collect(),
         ),
     ])
@@ -90,11 +93,7 @@ pub(super) fn claims(runs: Runs, timings: &[Timing]) -> Claims {
 
 /// Runs whose way takes no step between two obstacles that meet at a corner.
 fn unsqueezed(runs: Runs) -> Counted {
-    let trials = runs.trials("wang-aisles", PROPOSED);
-    let avoids = trials.iter().filter(|trial| trial.n_squeezes == Some(0));
-    Counted {
-        name: "wang-aisles, no step through an aisle".to_owned(),
-        n: avoids.count(),
-        of: trials.len(),
-    }
+    let group = runs.group("wang-aisles", PROPOSED);
+    let name = "wang-aisles, no step through an aisle".to_owned();
+    group.counted(name, |trial| trial.n_squeezes == Some(0))
 }

@@ -4,14 +4,14 @@ mod adjacency;
 mod claims;
 mod steps;
 
-use crate::analysis::statistics::{quantile, quartiles};
-use crate::papers::correspondence::{self, NOT_MADE, Place};
+use crate::papers::correspondence;
 use crate::papers::exhibit::{Exhibit, Line, overlay};
 use crate::papers::experiment::{Ground, Setup, Variant, run_all};
+use crate::papers::group::{Column, Group, table_of};
 use crate::papers::parameters;
 use crate::papers::reproduction::Reproduction;
 use crate::papers::trial::Trial;
-use crate::papers::trials::{Measure, Runs};
+use crate::papers::trials::Runs;
 use crate::report::{Block, Field, Report, Section, Table};
 use anyhow::Result;
 use formicar::colony::heuristic::{Guidance, StepLength, Visibility};
@@ -52,7 +52,7 @@ pub fn wang2019(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproductio
         parameters::WANG2019,
         &Variant::of(PlannerName::Wang2019),
     )?);
-    sections.push(correspondence::section(&PLACES));
+    sections.push(correspondence::section(PLACES));
     let report = Report {
         name: "wang2019".to_owned(),
         title: "Wang et al. 2019: aisles, convergence, adjacency".to_owned(),
@@ -112,85 +112,36 @@ fn of_map((map, figure): (&str, &str), ground: &Ground, runs: Runs) -> Result<Se
     );
     let convergence = runs.convergence(map, &COLONIES, &caption);
     let caption = format!("`{map}`: length of the best way of each run by variant.");
-    let lengths = runs.boxes(map, (&caption, "length, cells"), |trial| trial.length_cells);
-    Ok(Section {
-        heading: format!("{map}: figure {figure}"),
-        blocks: vec![
-            Block::Table(table(map, runs)),
-            Block::Figure(paths),
-            Block::Bands(convergence),
-            Block::BoxPlot(lengths),
-        ],
-    })
+    let lengths = runs.boxes_of_lengths(map, &caption);
+    let blocks = vec![
+        Block::Table(table(map, runs)),
+        Block::Figure(paths),
+        Block::Trends(convergence),
+        Block::BoxPlot(lengths),
+    ];
+    Ok(Section::new(format!("{map}: figure {figure}"), blocks))
 }
 
 fn table(map: &str, runs: Runs) -> Table {
-    let mut table = Table::new(
-        map,
-        &[
-            "variant",
-            "arrived",
-            "squeezes",
-            "length",
-            "/ optimum",
-            "to best",
-            "to 1 %",
-            "ms",
-        ],
-    );
-    for name in runs.variants(map) {
-        let own = runs.trials(map, name);
-        let values = |of: Measure| runs.values(map, name, of);
-        let number = |of: Measure, n| Field::Number(quantile(&values(of), 0.5), n);
-        let count = |is: fn(&Trial) -> bool| own.iter().filter(|trial| is(trial)).count();
-        let n_squeezing = count(|t| t.n_squeezes.is_some_and(|n| n > 0));
-        table.row(vec![
-            Field::words(name),
-            Field::Count(count(|trial| trial.arrived), own.len()),
-            Field::Number(Some(n_squeezing as f64), 0),
-            Field::Spread(quartiles(&values(|trial| trial.length_cells)), 1),
-            number(|t| Some(t.length_cells? / t.optimum_cells?), 3),
-            number(|trial| Some(f64::from(trial.n_to_best?)), 0),
-            number(|trial| Some(f64::from(trial.n_to_1_percent?)), 0),
-            number(|trial| Some(trial.query_ms), 1),
-        ]);
-    }
-    table
+    let n_squeezing = |g: &Group<Trial>| g.count(|t| t.n_squeezes.is_some_and(|n| n > 0)) as f64;
+    let columns: [Column<Trial>; 7] = [
+        ("arrived", &|g, _| {
+            Field::Count(g.count(|trial| trial.arrived), g.len())
+        }),
+        ("squeezes", &|g, _| Field::Number(Some(n_squeezing(g)), 0)),
+        ("length", &|g, _| g.spread(|trial| trial.length_cells, 1)),
+        ("/ optimum", &|g, _| {
+            g.number(|t| Some(t.length_cells? / t.optimum_cells?), 3)
+        }),
+        ("to best", &|g, _| {
+            g.number(|trial| Some(f64::from(trial.n_to_best?)), 0)
+        }),
+        ("to 1 %", &|g, _| {
+            g.number(|trial| Some(f64::from(trial.n_to_1_percent?)), 0)
+        }),
+        ("ms", &|g, _| g.number(|trial| Some(trial.query_ms), 1)),
+    ];
+    table_of(map, "variant", &columns, runs.groups(map))
 }
 
-const PLACES: [Place; 10] = [
-    [
-        "Figure 1",
-        "Steps past obstacles",
-        "which diagonal steps the three rules allow in the distributions A to D",
-    ],
-    [
-        "Figure 2",
-        "Steps past obstacles",
-        "neighbors in the nine positions on a map",
-    ],
-    [
-        "Figure 3",
-        NOT_MADE,
-        "concept drawing: distances between cells, 1 and the square root of 2",
-    ],
-    [
-        "Figure 4",
-        NOT_MADE,
-        "concept drawing: the eight cells around an ant",
-    ],
-    ["Figure 5", NOT_MADE, "flowchart"],
-    [
-        "Figure 6",
-        "wang-aisles",
-        "paths (a) and convergence (b) with narrow aisles",
-    ],
-    [
-        "Figure 7",
-        "wang-open",
-        "paths (a) and convergence (b) without narrow aisles",
-    ],
-    ["Figure 8", "aco20", "paths (a) and convergence (b)"],
-    ["Figure 9", "Adjacency", "time over size, both calculations"],
-    ["Table 1", "Adjacency", "time at 20 x 20, both calculations"],
-];
+const PLACES: &str = include_str!("figures.txt");

@@ -1,4 +1,4 @@
-//! Which steps are allowed: figures 1 and 2.
+//! Allowed steps: figures 1 and 2.
 
 use crate::report::{Block, Field, Section, Table};
 use formicar::map::{BitGrid, Cell, DiagonalRule, MoveMasks, STEPS};
@@ -23,10 +23,8 @@ const RULES: [(&str, DiagonalRule); 3] = [
 ];
 
 pub(super) fn section() -> Section {
-    Section {
-        heading: "Steps past obstacles: figures 1 and 2".to_owned(),
-        blocks: vec![Block::Table(distributions()), Block::Table(positions())],
-    }
+    let blocks = vec![Block::Table(distributions()), Block::Table(positions())];
+    Section::new("Steps past obstacles: figures 1 and 2", blocks)
 }
 
 fn distributions() -> Table {

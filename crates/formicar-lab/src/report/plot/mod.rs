@@ -1,13 +1,10 @@
-//! Charts of measured values, drawn for a light page and readable in greyscale: text as text, so
-//! that it can be searched, and nothing that is not in the page itself.
+//! Charts of measured values: their description for JSON, and their statistics as charts of the
+//! library.
 
-mod axis;
-mod bands;
 mod box_plot;
-mod canvas;
 mod paired;
+mod trends;
 
-pub use axis::ScaleKind;
-pub use bands::{BandPanel, Bands, Course};
 pub use box_plot::{BoxGroup, BoxPlot};
 pub use paired::{PairedPanel, PairedPlot};
+pub use trends::{Trend, TrendPanel, Trends};

@@ -1,18 +1,17 @@
 //! Differences between two that had the same seeds.
 
-use super::axis::{Scale, ScaleKind};
-use super::canvas::{Anchor, Canvas, FIRST, INK, MUTED, Pen, SECOND, TEXT_PX};
 use crate::analysis::statistics::quantile;
+use formicar::geometry::Point2;
+use formicar::render::{Axis, Chart, ChartGrid, DotFill, Dots, SERIES_LOOKS, Series, palette};
 use serde::Serialize;
 
 const N_COLUMNS: usize = 3;
-const PLOT_PX: [f64; 2] = [310.0, 120.0];
-const MARGIN_PX: [f64; 4] = [52.0, 42.0, 14.0, 26.0];
+const HEIGHT_PX: f64 = 120.0;
 
 /// The differences of one pair of groups.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct PairedPanel {
-    /// Who is compared with whom.
+    /// The two that are compared.
     pub name: String,
     /// A difference per seed or scenario, in any order.
     pub differences: Vec<f64>,
@@ -22,7 +21,7 @@ pub struct PairedPanel {
 /// panel per comparison, each with its own axis.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct PairedPlot {
-    /// What it shows.
+    /// The caption below the picture.
     pub caption: String,
     /// Quantity and unit.
     pub quantity: String,
@@ -33,57 +32,65 @@ pub struct PairedPlot {
 impl PairedPlot {
     /// The picture.
     pub fn to_svg(&self) -> String {
-        let [left, top, right, bottom] = MARGIN_PX;
-        let cell = [left + PLOT_PX[0] + right, top + PLOT_PX[1] + bottom];
-        let mut canvas = Canvas::default();
-        for (i, panel) in self.panels.iter().enumerate() {
-            let (column, row) = (i % N_COLUMNS, i / N_COLUMNS);
-            let corner = [column as f64 * cell[0] + left, row as f64 * cell[1] + top];
-            draw(&mut canvas, corner, panel);
-        }
-        let n_rows = self.panels.len().div_ceil(N_COLUMNS).max(1);
-        let n_columns = self.panels.len().clamp(1, N_COLUMNS);
-        let title = format!("Paired differences: {}", self.quantity);
-        let width_px = n_columns as f64 * cell[0];
-        canvas.document([width_px, n_rows as f64 * cell[1] + 6.0], &title)
+        let grid = ChartGrid {
+            title: format!("Paired differences: {}", self.quantity),
+            charts: self.panels.iter().map(PairedPanel::chart).collect(),
+            n_columns: N_COLUMNS,
+            ..ChartGrid::default()
+        };
+        grid.to_svg()
     }
 }
 
-fn draw(canvas: &mut Canvas, [left, top]: [f64; 2], panel: &PairedPanel) {
-    let (right, bottom) = (left + PLOT_PX[0], top + PLOT_PX[1]);
-    let mut sorted: Vec<f64> = panel.differences.clone();
-    sorted.retain(|d| d.is_finite());
-    sorted.sort_by(f64::total_cmp);
-    let values = sorted.iter().copied().chain([0.0]);
-    let scale = Scale::fit(values, ScaleKind::Linear, [bottom, top]);
-    canvas.text([left, top - 24.0], &panel.name, (Anchor::Start, INK));
-    let median = quantile(&sorted, 0.5);
-    let words = median.map_or("no pairs".to_owned(), |median| {
-        let n_below = sorted.iter().filter(|d| **d < 0.0).count();
-        let n_above = sorted.iter().filter(|d| **d > 0.0).count();
-        format!(
-            "median {}, {n_below} below, {n_above} above 0",
-            short(median)
-        )
-    });
-    canvas.text([left, top - 8.0], &words, (Anchor::Start, MUTED));
-    scale.draw_left(canvas, [left, right], "");
-    let zero = scale.px(0.0);
-    canvas.line([left, zero], [right, zero], Pen::new(INK, 1.3));
-    let step = PLOT_PX[0] / (sorted.len() as f64 + 1.0);
-    for (i, &difference) in sorted.iter().enumerate() {
-        let place = [left + step * (i as f64 + 1.0), scale.px(difference)];
-        let (color, fill) = if difference <= 0.0 {
-            (FIRST, FIRST)
-        } else {
-            (SECOND, "#ffffff")
+impl PairedPanel {
+    fn chart(&self) -> Chart {
+        let mut sorted = self.differences.clone();
+        sorted.retain(|d| d.is_finite());
+        sorted.sort_by(f64::total_cmp);
+        let places = || {
+            let numbered = sorted.iter().enumerate();
+            numbered.map(|(i, &d)| Point2::new(i as f64 + 1.0, d))
         };
-        canvas.line([place[0], zero], place, Pen::new(color, 1.0));
-        canvas.dot(place, 2.6, (fill, Pen::new(color, 1.2)));
+        let dots = |fill, points: Vec<Point2>, (color, _)| Dots {
+            points,
+            color,
+            fill,
+            radius_px: 2.6,
+            stem_from: Some(0.0),
+        };
+        let below = places().filter(|p| p.y <= 0.0).collect();
+        let above = places().filter(|p| p.y > 0.0).collect();
+        let end = sorted.len() as f64 + 1.0;
+        let zero = vec![Point2::default(), Point2::new(end, 0.0)];
+        Chart {
+            title: self.name.clone(),
+            x: Axis {
+                range: Some((0.0, end)),
+                ..Axis::named(&summary(&sorted))
+            },
+            series: vec![Series::new("", zero, palette::INK)],
+            dots: vec![
+                dots(DotFill::Solid, below, SERIES_LOOKS[0]),
+                dots(DotFill::Hollow, above, SERIES_LOOKS[1]),
+            ],
+            height_px: HEIGHT_PX,
+            ..Chart::default()
+        }
     }
-    let words = format!("{} pairs, sorted", sorted.len());
-    let place = [0.5 * (left + right), bottom + TEXT_PX + 4.0];
-    canvas.text(place, &words, (Anchor::Middle, MUTED));
+}
+
+/// The number of pairs and the sides of 0 on which they lie.
+fn summary(sorted: &[f64]) -> String {
+    let Some(median) = quantile(sorted, 0.5) else {
+        return "no pairs".to_owned();
+    };
+    let n_below = sorted.iter().filter(|d| **d < 0.0).count();
+    let n_above = sorted.iter().filter(|d| **d > 0.0).count();
+    format!(
+        "{} pairs, sorted: median {}, {n_below} below, {n_above} above 0",
+        sorted.len(),
+        short(median)
+    )
 }
 
 /// A number with three digits that count.

@@ -1,10 +1,10 @@
 //! Strip charts along a path: curvature, steering and clearance over arc length.
 
-use super::chart::{Axis, Band, Chart, Limit, Series};
-use super::palette;
-use super::style::clearance_label;
+use super::{Axis, Band, Chart, Limit, Series};
 use crate::geometry::Point2;
 use crate::path::Direction;
+use crate::render::palette;
+use crate::render::style::clearance_label;
 use crate::vehicle::{Motion, Vehicle};
 
 /// What the strip charts show at one place of a path.
@@ -51,7 +51,7 @@ pub fn strip_charts(profile: &[ProfilePoint], vehicle: &Vehicle) -> Vec<Chart> {
 }
 
 /// Charts over one x axis: the first names the stretches in reverse, the last the axis.
-pub(super) fn stacked(mut charts: Vec<Chart>, x_label: &str) -> Vec<Chart> {
+pub(in crate::render) fn stacked(mut charts: Vec<Chart>, x_label: &str) -> Vec<Chart> {
     if let Some(first) = charts.first_mut() {
         let name = |band: &mut Band| String::from("reverse").clone_into(&mut band.label);
         first.bands.iter_mut().for_each(name);
@@ -112,6 +112,7 @@ fn strip(
         x: Axis {
             label: String::new(),
             range: (length_m.is_finite() && length_m > 0.0).then_some((0.0, length_m)),
+            ..Axis::default()
         },
         y: Axis::named(unit),
         bands: reverse_stretches(profile.iter().map(|p| (p.s_m, p.direction))),
@@ -120,7 +121,7 @@ fn strip(
     }
 }
 
-pub(super) fn both_sides(limit: f64, label: impl Fn(f64) -> String) -> Vec<Limit> {
+pub(in crate::render) fn both_sides(limit: f64, label: impl Fn(f64) -> String) -> Vec<Limit> {
     [limit, -limit]
         .map(|value| Limit {
             label: label(value),
@@ -131,7 +132,9 @@ pub(super) fn both_sides(limit: f64, label: impl Fn(f64) -> String) -> Vec<Limit
 
 /// Shades the stretches of an axis that are driven in reverse, from its values and the gears in
 /// which they are reached.
-pub(super) fn reverse_stretches(points: impl Iterator<Item = (f64, Direction)>) -> Vec<Band> {
+pub(in crate::render) fn reverse_stretches(
+    points: impl Iterator<Item = (f64, Direction)>,
+) -> Vec<Band> {
     let mut bands: Vec<Band> = Vec::new();
     let mut from = None;
     for (to, direction) in points {

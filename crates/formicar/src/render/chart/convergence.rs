@@ -1,10 +1,10 @@
 //! Charts of a colony over its iterations: costs, evaporation, ants that arrived.
 
-use super::chart::{Axis, Chart, Series, Side};
-use super::palette::{self, Color};
-use super::style::Dash;
+use super::{Axis, Chart, Series, Side};
 use crate::geometry::Point2;
 use crate::progress::{History, IterationRecord};
+use crate::render::palette::{self, Color};
+use crate::render::style::Dash;
 
 const COSTS_PX: f64 = 360.0;
 const ARRIVED_PX: f64 = 110.0;
@@ -21,9 +21,10 @@ pub fn convergence_charts(history: &History) -> Vec<Chart> {
 }
 
 /// The costs of the first iterations, with axes that suit all, for a film.
-pub(super) fn costs_up_to(history: &History, n_shown: usize) -> Chart {
+pub(in crate::render) fn costs_up_to(history: &History, n_shown: usize) -> Chart {
     let mut chart = costs(&history.iterations);
-    (chart.x.range, chart.y.range) = (Some(chart.x_range()), Some(chart.y_range(Side::Left)));
+    let (x, y) = (chart.x_scale(), chart.y_scale(Side::Left));
+    (chart.x.range, chart.y.range) = (Some((x.low, x.high)), Some((y.low, y.high)));
     for series in &mut chart.series {
         series.points.truncate(n_shown);
     }
@@ -43,6 +44,7 @@ fn costs(records: &[IterationRecord]) -> Chart {
         y_right: Some(Axis {
             label: "evaporation ρ".to_owned(),
             range: Some((0.0, 1.0)),
+            ..Axis::default()
         }),
         series: vec![
             Series {
@@ -74,10 +76,12 @@ fn arrived(records: &[IterationRecord]) -> Chart {
         y: Axis {
             label: format!("of {n_ants}"),
             range: Some((0.0, f64::from(n_ants.max(1)))),
+            ..Axis::default()
         },
         y_right: Some(Axis {
             label: "share".to_owned(),
             range: Some((0.0, 1.0)),
+            ..Axis::default()
         }),
         series: vec![Series::new("", n_arrived, palette::FORWARD)],
         height_px: ARRIVED_PX,
