@@ -1,7 +1,7 @@
-//! Pictures and films of the ants that found a path, or did not.
+//! Pictures and films of the ants of a colony.
 
-use crate::ground::Ground;
 use crate::picture::PNG_WIDTH_PX;
+use crate::scene::Scene;
 use anyhow::{Result, bail};
 use formicar::numeric::counted;
 use formicar::planner::{Answer, Outcome, PlannerName, Stages};
@@ -9,7 +9,7 @@ use formicar::progress::AntFrame;
 use formicar::render::{ColonyPicture, colony_film, colony_picture, to_gif};
 use formicar::smoothing::{CornerRecord, Rounding};
 
-/// What `--ants` writes.
+/// The formats of `--ants`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum AntsKind {
     Svg,
@@ -27,29 +27,30 @@ pub(crate) const KINDS: [(&str, AntsKind); 3] = [
 /// Width of a film, pixels.
 const FILM_WIDTH_PX: u32 = 560;
 
-/// Whether a planner has ants.
+/// Refuses a planner without ants.
 pub(crate) fn check(planner: PlannerName) -> Result<()> {
     if !planner.has_ants() {
         bail!(
-            "--ants: {} is no colony and has no ants; hint: --planner lei2020 (see `list planners`)",
+            "--ants: {} is not an ant colony; hint: --planner lei2020 (see `list planners`)",
             planner.name()
         );
     }
     Ok(())
 }
 
-/// The file of an answer by a colony.
+/// The picture or film of an answer by a colony.
 pub(crate) fn encode(
-    ground: &Ground,
-    (answer, outcome): (&Answer, &Outcome),
+    scene: &Scene,
+    answer: &Answer,
+    outcome: &Outcome,
     frames: &[AntFrame],
     kind: AntsKind,
 ) -> Result<Vec<u8>> {
     let stages = outcome.stages();
     let [start, goal] = answer.ends();
     let colony = ColonyPicture {
-        map: &ground.map,
-        vehicle: &ground.vehicle.vehicle,
+        map: &scene.map,
+        vehicle: &scene.vehicle.vehicle,
         start,
         goal,
         stages,
@@ -65,7 +66,7 @@ pub(crate) fn encode(
     })
 }
 
-/// Key numbers of a run, and why there is no path where there is none.
+/// Key numbers of a run, and the reason if there is no path.
 fn caption(answer: &Answer, stages: &Stages) -> String {
     let mut parts = Vec::new();
     if let Some(run) = &stages.colony {

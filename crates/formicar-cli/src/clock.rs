@@ -1,20 +1,23 @@
-//! What watches a query: a clock that remembers when the first path was certified, and whoever
-//! keeps its ants.
+//! The observer of a query: a clock that notes the certified paths, and the ants to keep.
 
 use formicar::progress::{AntFrames, Event, Observer};
 use std::time::{Duration, Instant};
 
-/// Lends time to a query and notes its certified paths.
+/// Gives the time to a query and notes its certified paths.
 #[derive(Debug)]
 pub(crate) struct Clock {
     begun: Instant,
     paths: Vec<PathTold>,
 }
 
-/// A certified path, as the observer heard of it.
+/// A certified path, as reported to the observer.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(
+    not(feature = "lab"),
+    allow(dead_code, reason = "measurements read all of it")
+)]
 pub(crate) struct PathTold {
-    /// When, from the beginning of the query.
+    /// The time since the query began.
     pub(crate) at: Duration,
     pub(crate) length_m: f64,
     /// Search steps by then.
@@ -22,7 +25,7 @@ pub(crate) struct PathTold {
 }
 
 impl Clock {
-    /// A query begins now.
+    /// A clock for a query that begins now.
     pub(crate) fn begin() -> Self {
         Self {
             begun: Instant::now(),
@@ -40,12 +43,13 @@ impl Clock {
         self.paths.first().map(|told| told.at.as_secs_f64())
     }
 
-    /// How often a certified path was replaced by a better one.
+    /// The number of times that a better path replaced a certified one.
     pub(crate) fn n_improvements(&self) -> u32 {
         u32::try_from(self.paths.len().saturating_sub(1)).unwrap_or(u32::MAX)
     }
 
     /// All certified paths, the best last.
+    #[cfg(feature = "lab")]
     pub(crate) fn into_paths(self) -> Vec<PathTold> {
         self.paths
     }
@@ -70,7 +74,7 @@ impl Observer for Clock {
     }
 }
 
-/// A clock, and ants kept for a picture where one is wanted.
+/// A clock, and the ants to keep for a picture.
 #[derive(Debug)]
 pub(crate) struct Watch<'a> {
     pub(crate) clock: Clock,

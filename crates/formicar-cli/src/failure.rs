@@ -1,20 +1,24 @@
-//! How a command ends, and the exit code of each ending.
+//! The endings of a command and their exit codes.
 
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-/// How a command that could be carried out ended.
+/// The ending of a command that was carried out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(
+    not(feature = "lab"),
+    allow(dead_code, reason = "some endings are those of measurements")
+)]
 pub(crate) enum Ending {
-    /// A feasible path, or whatever was asked for.
+    /// Success: a feasible path, if one was asked for.
     Done,
-    /// The caller's fault, already told in the answer.
+    /// The caller's fault, already reported in the answer.
     Refused,
     /// No feasible path.
     NoPath,
-    /// Results that are worse than those they are held against.
+    /// Results that are worse than the ones they are compared with.
     Worse,
-    /// Something that must not be: a fault of ours, told in the report.
+    /// A fault of the program, described in the report.
     Broken,
 }
 
@@ -29,18 +33,17 @@ impl From<Ending> for ExitCode {
     }
 }
 
-/// Why a command could not be carried out.
+/// The reason why a command could not be carried out.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// The caller's fault: what is wrong with usage or input.
+    /// The caller's fault: wrong usage or input.
     Input(anyhow::Error),
     /// The output could not be written.
     Output(io::Error),
 }
 
 impl Failure {
-    /// Says on stderr what is wrong, and gives the exit code; a reader of stdout that has left
-    /// early is no failure.
+    /// Prints the message on stderr and returns the exit code. A closed pipe is no failure.
     pub(crate) fn explain(&self) -> ExitCode {
         let (text, code) = match self {
             Self::Input(error) => (format!("error: {error:#}"), 2),
@@ -60,15 +63,15 @@ impl From<anyhow::Error> for Failure {
     }
 }
 
-/// Only writing to stdout hands over bare IO errors; files come with their names as `anyhow`.
+/// Bare IO errors come from stdout only; those of files carry the file's name as `anyhow` errors.
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
         Self::Output(error)
     }
 }
 
-/// A line on stderr.
+/// Prints a line on stderr.
 pub(crate) fn note(text: &str) {
-    // Without a stderr there is nobody to tell.
+    // Without a stderr nobody can read it.
     let _ = writeln!(io::stderr().lock(), "{text}");
 }

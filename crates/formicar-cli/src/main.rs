@@ -1,34 +1,35 @@
 //! The command line of formicar: library calls from a terminal.
 //!
-//! Exit codes: 0 a feasible path (or a command without one that succeeded), 1 an internal
-//! failure, 2 wrong usage or input, 3 finished without a feasible path, or with results that are
-//! worse than asked for.
+//! Exit codes: 0 success, 1 an internal failure, 2 wrong usage or input, 3 no feasible path, or
+//! results that are worse than required.
 
 mod ants;
-mod args;
+mod cli;
 mod clock;
 mod commands;
 mod failure;
 mod files;
-mod ground;
+mod mode_args;
+mod optional;
 mod output;
+mod path_file;
 mod picture;
+mod scene;
+mod session;
 mod settings;
-mod soft_costs;
 mod summary;
 mod values;
 
-use clap::Parser;
 use std::io::{BufWriter, Write};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    // A panic is a fault of ours: its message stands on stderr already.
+    // The message of a panic is on stderr already.
     std::panic::catch_unwind(run).unwrap_or(ExitCode::from(1))
 }
 
 fn run() -> ExitCode {
-    let cli = match args::Cli::try_parse() {
+    let cli = match cli::Cli::from_process() {
         Ok(cli) => cli,
         Err(message) => {
             // Help into a closed pipe is no failure.
@@ -37,7 +38,7 @@ fn run() -> ExitCode {
         }
     };
     let mut out = BufWriter::new(std::io::stdout().lock());
-    let ending = commands::run(&cli.command, &mut out).and_then(|ending| {
+    let ending = cli.run(&mut out).and_then(|ending| {
         out.flush()?;
         Ok(ending)
     });

@@ -1,10 +1,10 @@
-//! Output files: refused before planning where they cannot be written, then written in one go.
+//! Output files: checked before planning, and written in one piece.
 
 use anyhow::{Context, Result, bail};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A file that can be written, by what belongs in it.
+/// An output file, and the kind of content that goes into it.
 #[derive(Clone, Debug)]
 pub(crate) struct Target<Kind> {
     path: PathBuf,
@@ -24,7 +24,7 @@ impl<Kind: Copy> Target<Kind> {
         let Some(&(_, kind)) = kind else {
             let known: Vec<_> = kinds.iter().map(|(known, _)| format!(".{known}")).collect();
             bail!(
-                "{}: cannot tell what to write; the name must end in {}",
+                "{}: unknown extension; the name must end in {}",
                 path.display(),
                 known.join(" or ")
             );
@@ -47,7 +47,7 @@ impl<Kind: Copy> Target<Kind> {
     }
 }
 
-/// Whether a file can be put there: found out by putting an empty one beside it.
+/// Checks that a file can be written, by writing an empty one beside it.
 fn check_writable(path: &Path) -> Result<()> {
     if fs::metadata(path).is_ok_and(|found| !found.is_file()) {
         bail!("it exists and is no regular file; hint: give another name");
@@ -58,13 +58,13 @@ fn check_writable(path: &Path) -> Result<()> {
     };
     if !folder.is_dir() {
         bail!(
-            "the folder {} does not exist; hint: make it first",
+            "the folder {} does not exist; hint: create it first",
             folder.display()
         );
     }
     let probe = folder.join(format!(".formicar-probe-{}", std::process::id()));
     if let Err(error) = fs::write(&probe, b"") {
-        bail!("{error}; hint: give a folder that takes files");
+        bail!("{error}; hint: name a folder that is writable");
     }
-    fs::remove_file(&probe).context("the folder keeps its files")
+    fs::remove_file(&probe).context("the file cannot be removed again")
 }

@@ -1,6 +1,6 @@
 //! Pictures of answers.
 
-use crate::ground::Ground;
+use crate::scene::Scene;
 use anyhow::Result;
 use formicar::collision::ObstacleMap;
 use formicar::planner::{Answer, Outcome};
@@ -22,15 +22,16 @@ pub(crate) const PNG_WIDTH_PX: u32 = 1600;
 
 /// The picture of an answer, with or without a path.
 pub(crate) fn of(
-    (ground, obstacles): (&Ground, &ObstacleMap),
+    scene: &Scene,
+    obstacles: &ObstacleMap,
     answer: &Answer,
     outcome: &Outcome,
     layout: Layout,
 ) -> Picture {
-    let vehicle = &ground.vehicle.vehicle;
+    let vehicle = &scene.vehicle.vehicle;
     let report = outcome.judged().map(|(_, report)| report);
     let picture = AnswerPicture {
-        map: &ground.map,
+        map: &scene.map,
         vehicle,
         answer,
         outcome,

@@ -37,7 +37,7 @@ pub(crate) fn load(
         Some(path) => read(path)?,
         None => Table::new(),
     };
-    let mut table = merge((table, &name_of(file)), sets, planner)?;
+    let mut table = merge(table, &name_of(file), sets, planner)?;
     let config = typed(&table)?;
     let of_point = if table.contains_key("planner") {
         None
@@ -51,7 +51,8 @@ pub(crate) fn load(
 
 /// A table of a name, with single keys and the planner's name in it; what it comes to is checked.
 pub(crate) fn merge(
-    (mut table, name): (Table, &str),
+    mut table: Table,
+    name: &str,
     sets: &[String],
     planner: Option<PlannerName>,
 ) -> Result<Table> {

@@ -1,4 +1,4 @@
-//! What a person reads after a query: two calm lines.
+//! The summary of an answer for people.
 
 use formicar::numeric::counted;
 use formicar::planner::Answer;
@@ -49,7 +49,7 @@ pub(crate) fn write(
     )
 }
 
-/// Which goal was reached; nothing where there was only one.
+/// The goal that was reached, if there were several.
 fn goal_of_several(answer: &Answer) -> String {
     let request = answer.provenance.request.as_ref();
     let goals = request.and_then(|request| request.goals.as_ref());
@@ -60,7 +60,7 @@ fn goal_of_several(answer: &Answer) -> String {
     }
 }
 
-/// How long the drive takes, and how fast the curvature changes: where these are known.
+/// Travel time and greatest rate of curvature, as far as they are known.
 fn write_speed_and_steering(answer: &Answer, out: &mut impl Write) -> io::Result<()> {
     let travel_time_s = answer.metrics.as_ref().and_then(|m| m.travel_time_s);
     let asked = answer.provenance.request.as_ref();
@@ -78,7 +78,7 @@ fn write_speed_and_steering(answer: &Answer, out: &mut impl Write) -> io::Result
     }
 }
 
-/// Largest curvature against the limit; nothing for a point, which has none.
+/// Largest curvature and its limit; empty for a point, which has no limit.
 pub(crate) fn curvature(largest_per_m: f64, vehicle: &Vehicle) -> String {
     let limit = vehicle.max_curvature_per_m();
     if limit.is_finite() {
@@ -88,16 +88,16 @@ pub(crate) fn curvature(largest_per_m: f64, vehicle: &Vehicle) -> String {
     }
 }
 
-/// A clearance, to the millimetre where it is small.
-pub(crate) fn clearance(metres: f64) -> String {
-    if metres < 0.1 {
-        format!("{metres:.3} m")
+/// A clearance, to the millimeter if it is small.
+pub(crate) fn clearance(meters: f64) -> String {
+    if meters < 0.1 {
+        format!("{meters:.3} m")
     } else {
-        format!("{metres:.2} m")
+        format!("{meters:.2} m")
     }
 }
 
-/// A time in the unit that suits it.
+/// A time in milliseconds or seconds, whichever suits it.
 pub(crate) fn duration(seconds: f64) -> String {
     if seconds < 1.0 {
         format!("{:.1} ms", seconds * 1e3)
@@ -111,7 +111,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_agree_with_their_nouns() {
+    fn times_have_the_unit_that_suits_them() {
         assert_eq!(duration(0.0041), "4.1 ms");
         assert_eq!(duration(2.5), "2.50 s");
     }

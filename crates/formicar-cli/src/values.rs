@@ -1,4 +1,4 @@
-//! Values as they are typed: poses, angles, polygons, words.
+//! Parsers for the values of flags: poses, angles, polygons, words.
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use formicar::geometry::{Point2, Pose2};
@@ -27,27 +27,27 @@ fn angle(text: &str) -> Result<f64, String> {
     }
 }
 
-/// `X,Y,H`: metres, metres, radians (or `90deg`).
+/// `X,Y,H`: meters, meters, radians (or `90deg`).
 pub(crate) fn pose(text: &str) -> Result<Pose2, String> {
     let parts: Vec<_> = text.split(',').collect();
     let [x, y, heading] = parts[..] else {
         return Err(format!(
-            "{} numbers; expected X,Y,HEADING in metres and radians, for instance 2,3,90deg",
+            "{} numbers; expected X,Y,HEADING in meters and radians, for instance 2,3,90deg",
             parts.len()
         ));
     };
     Ok(Pose2::new(number(x)?, number(y)?, angle(heading)?))
 }
 
-/// `X,Y`, metres.
+/// `X,Y`, meters.
 pub(crate) fn point(text: &str) -> Result<Point2, String> {
     let Some((x, y)) = text.split_once(',') else {
-        return Err("expected X,Y in metres, for instance 2,3.5".to_owned());
+        return Err("expected X,Y in meters, for instance 2,3.5".to_owned());
     };
     Ok(Point2::new(number(x)?, number(y)?))
 }
 
-/// `X,Y[,H]`: metres, metres, radians (or `90deg`).
+/// `X,Y[,H]`: meters, meters, radians (or `90deg`).
 pub(crate) fn via(text: &str) -> Result<ViaPoint, String> {
     let parts: Vec<_> = text.split(',').collect();
     let (x, y, heading) = match parts[..] {
@@ -55,7 +55,7 @@ pub(crate) fn via(text: &str) -> Result<ViaPoint, String> {
         [x, y, heading] => (x, y, Some(heading)),
         _ => {
             return Err(format!(
-                "{} numbers; expected X,Y or X,Y,HEADING in metres and radians, for instance 2,3,90deg",
+                "{} numbers; expected X,Y or X,Y,HEADING in meters and radians, for instance 2,3,90deg",
                 parts.len()
             ));
         }
@@ -75,7 +75,7 @@ pub(crate) fn turn_rate(text: &str) -> Result<f64, String> {
     }
 }
 
-/// `LEFT[,TURN[,AHEAD]]`: metres, radians (or `5deg`), metres.
+/// `LEFT[,TURN[,AHEAD]]`: meters, radians (or `5deg`), meters.
 pub(crate) fn start_offset(text: &str) -> Result<StartOffset, String> {
     let parts: Vec<_> = text.split(',').collect();
     let (left, turn, ahead) = match parts[..] {
@@ -84,7 +84,7 @@ pub(crate) fn start_offset(text: &str) -> Result<StartOffset, String> {
         [left, turn, ahead] => (left, turn, ahead),
         _ => {
             return Err(format!(
-                "{} numbers; expected LEFT[,TURN[,AHEAD]] in metres and radians, for instance 0.2,5deg",
+                "{} numbers; expected LEFT[,TURN[,AHEAD]] in meters and radians, for instance 0.2,5deg",
                 parts.len()
             ));
         }
@@ -99,7 +99,7 @@ pub(crate) fn start_offset(text: &str) -> Result<StartOffset, String> {
 /// `M,RAD`, both above 0.
 pub(crate) fn goal_tolerance(text: &str) -> Result<GoalTolerance, String> {
     let Some((xy, yaw)) = text.split_once(',') else {
-        return Err("expected M,RAD: metres and radians, for instance 0.1,5deg".to_owned());
+        return Err("expected M,RAD: meters and radians, for instance 0.1,5deg".to_owned());
     };
     let tolerance = GoalTolerance {
         xy_m: number(xy)?,
@@ -112,7 +112,7 @@ pub(crate) fn goal_tolerance(text: &str) -> Result<GoalTolerance, String> {
     }
 }
 
-/// `"x,y x,y x,y"` or `[[x, y], ...]`: at least three corners, in metres.
+/// `"x,y x,y x,y"` or `[[x, y], ...]`: at least three corners, in meters.
 pub(crate) fn polygon(text: &str) -> Result<Vec<Point2>, String> {
     let points: Vec<Point2> = if text.trim_start().starts_with('[') {
         let pairs: Vec<[f64; 2]> =
@@ -158,7 +158,7 @@ pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
     }
 }
 
-/// One of the words of an enum of the library, as in files.
+/// A word of an enum of the library, spelled as in files.
 pub(crate) fn word<T>(words: &'static [&'static str]) -> impl TypedValueParser<Value = T>
 where
     T: DeserializeOwned + Clone + Send + Sync + 'static,
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn refuses_what_is_no_pose() {
+    fn refuses_malformed_poses() {
         for bad in [
             "", "1,2", "1,2,3,4", "a,2,3", "nan,0,0", "1,inf,0", "1,2,deg",
         ] {

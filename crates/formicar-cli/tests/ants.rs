@@ -57,7 +57,11 @@ fn ants_walk_alike_watched_or_not_and_on_any_threads() {
 fn a_planner_without_ants_is_refused_before_it_plans() {
     let room = Room::new();
     let refused = room.plan(&["--ants", "ants.svg"]);
-    refused.assert_refused(&["--ants", "formicar is no colony", "--planner lei2020"]);
+    refused.assert_refused(&[
+        "--ants",
+        "formicar is not an ant colony",
+        "--planner lei2020",
+    ]);
     few_ants(&room, &["--ants", "ants.txt"]).assert_refused(&["ants.txt", ".svg or .png or .gif"]);
     few_ants(&room, &["--ants", "a.gif", "--stdin"]).assert_refused(&["--ants", "--stdin"]);
     assert_eq!(room.files(), ["room.pgm", "room.yaml"]);

@@ -1,4 +1,4 @@
-//! What a page needs to know before it asks for anything.
+//! The catalog that a page loads first: maps, vehicles, planners and schemas.
 
 use crate::options::Limits;
 use formicar::map::builtin::{self, BuiltinKind};
@@ -48,7 +48,7 @@ struct UploadLimits {
 }
 
 impl Catalog {
-    /// Everything that is built in.
+    /// The catalog of everything built in.
     pub(crate) fn new(limits: &Limits) -> Self {
         let map = |map: &builtin::BuiltinMap| MapEntry {
             name: map.name,
@@ -87,7 +87,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lists_everything_there_is() {
+    fn lists_all_that_is_built_in() {
         let catalog = serde_json::to_value(Catalog::new(&Limits::default())).unwrap();
         let n = |key: &str| catalog[key].as_array().unwrap().len();
         assert_eq!(n("maps"), builtin::all().len());

@@ -1,76 +1,44 @@
-//! The studio: a page on this machine that shows ants at work, lets maps be touched and paths be
-//! driven.
+//! The studio: a page on this machine that shows ants at work and lets users edit maps and drive
+//! paths.
 //!
-//! One server, many visitors. Each has a thread that does what it asks for in order ([`serve`]
-//! starts it), a queue of messages that waits for it and never makes a plan wait, and planners that
-//! stay warm. A plan stops when a newer one is asked for. The page itself is built from `web/` and
-//! lies in this crate, so that no tool but cargo is needed.
+//! One server, many clients. [`serve`] gives each client a thread that carries out its orders in
+//! turn, a queue of messages that never delays a plan, and planners that stay prepared. A newer
+//! plan cancels an older one. The page is built from `web/` and is part of this crate, so that
+//! cargo alone builds the studio.
 
+mod access;
 mod catalog;
-mod command;
-mod desks;
-mod gate;
-mod ground;
+mod command_line;
+mod connection;
 mod maps;
 mod options;
 mod outbox;
+mod plan_observer;
+mod plan_slot;
+mod planner_cache;
 mod protocol;
 mod routes;
+mod scene;
 mod session;
+mod state;
 mod upload;
-mod visit;
-mod warm;
-mod watcher;
+mod wanted;
 
 pub use options::{Limits, Options, StudioError};
 
-use desks::Desks;
-use maps::MapShelf;
+use state::Studio;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use visit::Seat;
-use warm::WarmShelf;
 
-/// What all visitors share.
-struct Studio {
-    options: Options,
-    maps: MapShelf,
-    desks: Desks,
-    warm: WarmShelf,
-    n_clients: AtomicUsize,
-}
-
-impl Studio {
-    fn new(options: Options) -> Self {
-        Self {
-            maps: MapShelf::new(options.limits),
-            desks: Desks::new(options.limits.max_plans),
-            warm: WarmShelf::default(),
-            n_clients: AtomicUsize::new(0),
-            options,
-        }
-    }
-
-    /// A place for one more visitor; none where all are taken.
-    fn seat(self: &Arc<Self>) -> Option<Seat> {
-        let max = self.options.limits.max_clients;
-        let more = |n: usize| (n < max).then_some(n + 1);
-        let (set, fetch) = (Ordering::Relaxed, Ordering::Relaxed);
-        let taken = self.n_clients.fetch_update(set, fetch, more);
-        taken.is_ok().then(|| Seat(self.clone()))
-    }
-}
-
-/// Serves the studio until the program is interrupted. `ready` hears the address of the page when
+/// Serves the studio until the program is interrupted. `ready` gets the address of the page once
 /// it can be opened.
 ///
 /// # Errors
-/// Options that let strangers in, or an address that cannot be listened at.
+/// Options that admit anyone, or an address that the server cannot listen on.
 pub fn serve(options: Options, ready: impl FnOnce(&str)) -> Result<(), StudioError> {
     options.check()?;
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .worker_threads(2)
-        // A thread for each visitor, and some to read uploads.
+        // A thread for each client, and some for uploads.
         .max_blocking_threads(options.limits.max_clients + 4)
         .enable_all()
         .build()?;
@@ -89,7 +57,7 @@ pub fn serve(options: Options, ready: impl FnOnce(&str)) -> Result<(), StudioErr
         }
         Ok(())
     });
-    // Plans under way are for nobody.
+    // Nobody waits for the plans under way.
     runtime.shutdown_background();
     ended
 }

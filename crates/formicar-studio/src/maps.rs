@@ -1,4 +1,4 @@
-//! Maps that visitors may open: the built-in ones, and what was uploaded or kept.
+//! The maps that clients may open: built-in, uploaded or kept.
 
 use crate::options::Limits;
 use crate::protocol::{MapChoice, NamedRequest, PoseList};
@@ -9,14 +9,14 @@ use formicar::map::{OccupancyGrid, UnknownPolicy};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
-/// A map as it was opened; shared by all who look at it.
+/// A map as it was opened, shared by all clients.
 #[derive(Debug)]
 pub(crate) struct OpenMap {
     pub(crate) name: String,
-    /// What opens it again; none for a built-in map.
+    /// The hash that opens it again; none for a built-in map.
     pub(crate) hash: Option<String>,
     pub(crate) grid: OccupancyGrid,
-    /// The same prepared for queries.
+    /// The same map, prepared for queries.
     pub(crate) obstacles: Arc<ObstacleMap>,
     pub(crate) builtin: Option<&'static BuiltinMap>,
 }
@@ -33,7 +33,7 @@ impl OpenMap {
         }
     }
 
-    /// What it suggests to ask.
+    /// The requests that come with it.
     pub(crate) fn requests(&self) -> Vec<NamedRequest> {
         let requests = self.builtin.map_or(&[][..], |builtin| builtin.requests);
         let named = |request: &builtin::BuiltinRequest| NamedRequest {
@@ -45,12 +45,12 @@ impl OpenMap {
     }
 }
 
-/// A pose as messages have it.
+/// A pose in the form of messages.
 pub(crate) fn list(pose: Pose2) -> PoseList {
     [pose.x, pose.y, pose.heading]
 }
 
-/// What opens a map again: a hash of its frame and of all its values.
+/// The hash that opens a map again, of its frame and all its values.
 fn hash(grid: &OccupancyGrid) -> String {
     let frame = grid.frame();
     let origin = frame.origin();
@@ -64,13 +64,13 @@ fn hash(grid: &OccupancyGrid) -> String {
 
 /// All maps that can be opened.
 #[derive(Debug)]
-pub(crate) struct MapShelf {
+pub(crate) struct MapStore {
     builtin: Vec<OnceLock<Arc<OpenMap>>>,
     kept: Mutex<VecDeque<Arc<OpenMap>>>,
     limits: Limits,
 }
 
-impl MapShelf {
+impl MapStore {
     pub(crate) fn new(limits: Limits) -> Self {
         Self {
             builtin: builtin::all().iter().map(|_| OnceLock::new()).collect(),
@@ -98,8 +98,8 @@ impl MapShelf {
         let map = BuiltinMap::by_name(name).map_err(|error| error.to_string())?;
         let place = builtin::all().iter().position(|other| other.name == name);
         let drawn = || Arc::new(OpenMap::new(name.to_owned(), map.grid(), Some(map)));
-        let shelf = place.and_then(|place| self.builtin.get(place));
-        Ok(shelf.map_or_else(drawn, |shelf| shelf.get_or_init(drawn).clone()))
+        let entry = place.and_then(|place| self.builtin.get(place));
+        Ok(entry.map_or_else(drawn, |entry| entry.get_or_init(drawn).clone()))
     }
 
     /// An uploaded or kept map.
@@ -108,8 +108,8 @@ impl MapShelf {
         maps.find(|map| map.hash.as_deref() == Some(hash))
     }
 
-    /// Keeps a map under the hash of its content; the oldest are forgotten where there are too
-    /// many cells.
+    /// Keeps a map under the hash of its content; the oldest maps go when there are too many
+    /// cells.
     ///
     /// # Errors
     /// More cells than a map may have.
@@ -149,20 +149,20 @@ mod tests {
 
     #[test]
     fn maps_are_found_by_name_and_by_content() {
-        let shelf = MapShelf::new(Limits::default());
-        let by_name = |name: &str| shelf.open(&MapChoice::Builtin(name.to_owned()));
+        let store = MapStore::new(Limits::default());
+        let by_name = |name: &str| store.open(&MapChoice::Builtin(name.to_owned()));
         assert!(Arc::ptr_eq(
             &by_name("aco20").unwrap(),
             &by_name("aco20").unwrap()
         ));
         assert!(by_name("../etc/passwd").unwrap_err().contains("aco20"));
-        let kept = shelf.keep("a.png", grid(&["..", ".#"])).unwrap();
+        let kept = store.keep("a.png", grid(&["..", ".#"])).unwrap();
         let hash = kept.hash.clone().unwrap();
         assert!(Arc::ptr_eq(
-            &shelf.open(&MapChoice::Hash(hash)).unwrap(),
+            &store.open(&MapChoice::Hash(hash)).unwrap(),
             &kept
         ));
-        assert!(shelf.open(&MapChoice::Hash("0".to_owned())).is_err());
+        assert!(store.open(&MapChoice::Hash("0".to_owned())).is_err());
     }
 
     #[test]
@@ -172,13 +172,13 @@ mod tests {
             max_kept_cells: 8,
             ..Limits::default()
         };
-        let shelf = MapShelf::new(limits);
+        let store = MapStore::new(limits);
         let rows = [["..", ".#"], ["..", "#."], [".#", ".."]];
-        let hashes = rows.map(|rows| shelf.keep("m", grid(&rows)).unwrap().hash.clone().unwrap());
-        let is_kept = hashes.each_ref().map(|hash| shelf.kept(hash).is_some());
+        let hashes = rows.map(|rows| store.keep("m", grid(&rows)).unwrap().hash.clone().unwrap());
+        let is_kept = hashes.each_ref().map(|hash| store.kept(hash).is_some());
         assert_eq!(is_kept, [false, true, true]);
         assert!(
-            shelf
+            store
                 .keep("m", grid(&["...", "..."]))
                 .unwrap_err()
                 .contains("at most 4")

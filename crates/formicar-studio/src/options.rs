@@ -1,38 +1,38 @@
-//! Where the studio listens, whom it lets in, and how much it takes.
+//! The options of the studio: address, access and limits.
 
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::time::Duration;
 use thiserror::Error;
 
-/// How the studio is served.
+/// The options of the studio.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Where it listens; others than this machine reach it only where this is no loopback address.
+    /// The address to listen on; other machines reach it only if it is not a loopback address.
     pub address: IpAddr,
     /// The port; 0 for any that is free.
     pub port: u16,
-    /// What a visitor must know; without one only loopback is allowed.
+    /// The token that clients must present; without one, only a loopback address is allowed.
     pub token: Option<String>,
-    /// How much it takes.
+    /// The limits on clients.
     pub limits: Limits,
 }
 
 impl Options {
-    /// The port that the studio has unless told otherwise.
+    /// The default port.
     pub const DEFAULT_PORT: u16 = 8484;
-    /// Characters of a token, at least.
+    /// The least length of a token.
     pub const MIN_TOKEN_LENGTH: usize = 16;
 
-    /// Where it listens.
+    /// The address and port to listen on.
     pub fn socket(&self) -> SocketAddr {
         SocketAddr::new(self.address, self.port)
     }
 
-    /// Whether strangers are kept out.
+    /// Checks that only authorized clients can connect.
     ///
     /// # Errors
-    /// An address that others reach without a token, or a token that is too short or does not fit
-    /// into an address.
+    /// An address that other machines reach without a token, or a token that is too short or does not
+    /// fit into a URL.
     pub fn check(&self) -> Result<(), StudioError> {
         match &self.token {
             None if !self.address.is_loopback() => Err(StudioError::NeedsToken {
@@ -60,25 +60,25 @@ impl Default for Options {
     }
 }
 
-/// How much the studio takes from its visitors.
+/// The limits on clients.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// Visitors at a time.
+    /// Clients at a time.
     pub max_clients: usize,
-    /// Plans at a time; more wait for their turn.
+    /// Plans at a time; further ones wait in line.
     pub max_plans: usize,
-    /// After so long a plan ends by itself.
+    /// Time limit of a plan.
     pub max_plan: Duration,
-    /// Bytes of an uploaded map.
+    /// Bytes of an upload.
     pub max_upload_bytes: usize,
     /// Cells of a map.
     pub max_cells: usize,
-    /// Cells of all maps that visitors have uploaded or kept; the oldest are forgotten.
+    /// Cells of all uploaded or kept maps together; beyond, the oldest are dropped.
     pub max_kept_cells: usize,
-    /// Requests of one visitor that wait; then it is not read from.
+    /// Waiting orders of one client; beyond, its messages are not read.
     pub max_waiting: usize,
-    /// Bytes that wait for one visitor: frames of ants beyond are left out, and who does not take
-    /// four times as much is cut off.
+    /// Unsent bytes of one client: beyond, frames are left out, and beyond four times as many the
+    /// client is disconnected.
     pub max_unsent_bytes: usize,
 }
 
@@ -97,30 +97,30 @@ impl Default for Limits {
     }
 }
 
-/// Why the studio cannot be served.
+/// Reasons why the studio cannot be served.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum StudioError {
-    /// An address that others reach, and nothing that keeps strangers out.
+    /// An address that other machines reach, without a token.
     #[error(
-        "address {address}: others can reach it, so visitors must know a token; hint: --token with at least 16 letters and digits"
+        "address {address}: other machines can reach it, so a token is needed; hint: --token with at least 16 letters and digits"
     )]
     NeedsToken {
         /// The address.
         address: IpAddr,
     },
-    /// A token that is too easy to guess, or does not fit into an address.
-    #[error("the token: at least 16 letters and digits, nothing else")]
+    /// A token that is too easy to guess or does not fit into a URL.
+    #[error("the token must have at least 16 characters, letters and digits only")]
     BadToken,
-    /// The port is taken, or must not be listened at.
-    #[error("cannot listen at {at}; hint: another --port, or 0 for any")]
+    /// The port is taken or reserved.
+    #[error("cannot listen on {at}; hint: another --port, or 0 for any")]
     CannotListen {
-        /// Where.
+        /// The address and port.
         at: SocketAddr,
-        /// What the system says.
+        /// The error of the system.
         source: std::io::Error,
     },
-    /// Serving failed.
+    /// The server failed.
     #[error("the server stopped")]
     Stopped(#[from] std::io::Error),
 }
@@ -130,7 +130,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_loopback_goes_without_a_token() {
+    fn only_loopback_needs_no_token() {
         let open = Options {
             address: Ipv4Addr::UNSPECIFIED.into(),
             ..Options::default()

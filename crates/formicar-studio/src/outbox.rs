@@ -1,11 +1,11 @@
-//! What waits for a visitor: a plan puts it there and never waits itself.
+//! The queue of messages for a client: plans add to it without ever waiting.
 
 use axum::extract::ws::Message;
 use std::collections::VecDeque;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use tokio::sync::Notify;
 
-/// Messages for one visitor.
+/// The messages for one client.
 #[derive(Debug)]
 pub(crate) struct Outbox {
     waiting: Mutex<Waiting>,
@@ -20,11 +20,11 @@ struct Waiting {
     is_closed: bool,
 }
 
-/// What nobody takes grows to so many times the bytes at which frames are left out, at most.
-const CUT_OFF_RATIO: usize = 4;
+/// A client is disconnected when more than this many times the limit for frames wait for it.
+const DISCONNECT_RATIO: usize = 4;
 
 impl Outbox {
-    /// One in which frames are left out while so many bytes wait.
+    /// A queue that leaves out frames while this many bytes wait.
     pub(crate) fn new(max_bytes: usize) -> Self {
         Self {
             waiting: Mutex::default(),
@@ -33,12 +33,12 @@ impl Outbox {
         }
     }
 
-    /// Puts a message that must arrive. Who takes none of them is cut off.
+    /// Adds a message that must arrive. A client that takes none of them is disconnected.
     pub(crate) fn put(&self, message: Message) {
         let mut waiting = self.lock();
-        // One message may be as large as it likes: a map is.
+        // A single message may be of any size, as a map is.
         let n_first = waiting.messages.front().map_or(0, size);
-        if waiting.n_bytes - n_first > CUT_OFF_RATIO * self.max_bytes {
+        if waiting.n_bytes - n_first > DISCONNECT_RATIO * self.max_bytes {
             waiting.messages.clear();
             waiting.is_closed = true;
         } else {
@@ -49,25 +49,25 @@ impl Outbox {
         self.changed.notify_one();
     }
 
-    /// Puts a frame, unless too much waits already.
+    /// Adds a frame, unless too much waits already.
     pub(crate) fn put_frame(&self, frame: impl FnOnce() -> Message) {
         if self.lock().n_bytes < self.max_bytes {
             self.put(frame());
         }
     }
 
-    /// No more is taken from it.
+    /// Ends the queue: no more messages are taken.
     pub(crate) fn close(&self) {
         self.lock().is_closed = true;
         self.changed.notify_one();
     }
 
-    /// Whether it is closed: what a plan sends is for nobody.
+    /// Whether the client is gone, so that nobody receives further messages.
     pub(crate) fn is_closed(&self) -> bool {
         self.lock().is_closed
     }
 
-    /// Takes the next message when there is one; none when it is closed.
+    /// Waits for the next message; none once the queue is closed.
     pub(crate) async fn take(&self) -> Option<Message> {
         loop {
             {
@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn frames_are_left_out_and_all_else_arrives_in_order() {
+    async fn frames_are_left_out_and_other_messages_arrive_in_order() {
         let outbox = Outbox::new(10);
         for n in [6, 7, 8] {
             outbox.put_frame(|| message(n));
@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn who_takes_nothing_is_cut_off() {
+    async fn a_client_that_takes_nothing_is_disconnected() {
         let outbox = Outbox::new(10);
         for _ in 0..7 {
             outbox.put(message(9));

@@ -1,4 +1,4 @@
-//! What the page and the server say to each other; the page's side is `web/src/protocol.ts`.
+//! The messages between page and server; the page's side is `web/src/protocol.ts`.
 //!
 //! Text messages are JSON, told apart by `type`. A binary message is a header of the same kind
 //! with a payload behind it: the header's length in bytes (u32, little endian), the header, the
@@ -15,7 +15,7 @@ use serde_json::Value as Json;
 /// `[x m, y m, heading rad]`.
 pub(crate) type PoseList = [f64; 3];
 
-/// Which of two plans side by side.
+/// One of two plans side by side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Slot {
@@ -27,13 +27,13 @@ impl Slot {
     /// Both.
     pub(crate) const ALL: [Self; 2] = [Self::A, Self::B];
 
-    /// Its place.
+    /// Its index.
     pub(crate) fn index(self) -> usize {
         self as usize
     }
 }
 
-/// Which map.
+/// The choice of a map.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub(crate) enum MapChoice {
@@ -43,13 +43,13 @@ pub(crate) enum MapChoice {
     Hash(String),
 }
 
-/// Which vehicle.
+/// The choice of a vehicle.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub(crate) enum VehicleChoice {
     /// A built-in by name.
     Preset(String),
-    /// One's own.
+    /// Measures of a vehicle that is no preset.
     Parameters(Box<VehicleParameters>),
 }
 
@@ -63,7 +63,7 @@ pub(crate) struct Region {
     pub(crate) n_rows: u32,
 }
 
-/// Which law turns the wheels.
+/// The controller that steers.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum DriveLaw {
@@ -80,7 +80,7 @@ pub(crate) enum PictureFormat {
     Png,
 }
 
-/// A plan asked for.
+/// An order for a plan.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlanOrder {
@@ -94,7 +94,7 @@ pub(crate) struct PlanOrder {
     pub(crate) previous: Option<u64>,
 }
 
-/// What a page asks for.
+/// Messages from a page.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub(crate) enum ClientMessage {
@@ -132,7 +132,7 @@ pub(crate) struct NamedRequest {
     pub(crate) goal: PoseList,
 }
 
-/// Where the vehicle comes nearest to an obstacle.
+/// The point where the vehicle comes nearest to an obstacle.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(crate) struct Tightest {
     pub(crate) x: f64,
@@ -141,7 +141,7 @@ pub(crate) struct Tightest {
     pub(crate) pose: PoseList,
 }
 
-/// What was computed on the way, as columns and rows in turn.
+/// Intermediate results, as columns and rows, alternating.
 #[derive(Clone, Debug, Default, Serialize)]
 pub(crate) struct StagesRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -154,7 +154,7 @@ pub(crate) struct StagesRecord {
     pub(crate) nodes: Option<Vec<u32>>,
 }
 
-/// What the server says.
+/// Messages from the server.
 #[derive(Clone, Debug, Serialize)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub(crate) enum ServerMessage<'a> {
@@ -225,7 +225,7 @@ pub(crate) enum ServerMessage<'a> {
         cli: String,
         toml: String,
     },
-    /// A newer plan in the slot was asked for before this one began.
+    /// A newer plan of the slot was ordered before this one began.
     Dropped {
         plan: u64,
         slot: Slot,

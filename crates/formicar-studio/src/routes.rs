@@ -1,8 +1,9 @@
-//! What can be asked for by address.
+//! The routes of the server.
 
 use crate::catalog::Catalog;
+use crate::state::Studio;
 use crate::upload::{self, Upload};
-use crate::{Studio, gate, visit};
+use crate::{access, connection};
 use axum::extract::multipart::{Multipart, MultipartError};
 use axum::extract::ws::WebSocketUpgrade;
 use axum::extract::{DefaultBodyLimit, Path, State};
@@ -17,7 +18,7 @@ use serde::Serialize;
 use serde_json::json;
 use std::sync::Arc;
 
-/// The page, as `web/` builds it.
+/// The page, built from `web/`.
 const FILES: [(&str, &str, &str); 3] = [
     (
         "/",
@@ -36,10 +37,10 @@ const FILES: [(&str, &str, &str); 3] = [
     ),
 ];
 
-/// Largest message of a page, bytes: strokes over a whole map.
+/// The largest message from a page, bytes: strokes over a whole map.
 const MAX_MESSAGE_BYTES: usize = 32 << 20;
 
-/// Everything that the studio serves.
+/// The router of all that the studio serves.
 pub(crate) fn router(studio: Arc<Studio>) -> Router {
     let limit = DefaultBodyLimit::max(studio.options.limits.max_upload_bytes);
     let mut router = Router::new();
@@ -54,7 +55,7 @@ pub(crate) fn router(studio: Arc<Studio>) -> Router {
         .route("/api/maps", post(post_map).layer(limit))
         .route("/maps/{hash}/{file}", get(get_map))
         .route("/ws", get(get_socket))
-        .layer(from_fn_with_state(studio.clone(), gate::guard))
+        .layer(from_fn_with_state(studio.clone(), access::guard))
         .with_state(studio)
 }
 
@@ -69,15 +70,15 @@ async fn get_catalog(State(studio): State<Arc<Studio>>) -> Response {
 }
 
 async fn get_socket(State(studio): State<Arc<Studio>>, upgrade: WebSocketUpgrade) -> Response {
-    let Some(seat) = studio.seat() else {
+    let Ok(permit) = studio.clients.clone().try_acquire_owned() else {
         let n = studio.options.limits.max_clients;
-        let reason = format!("{n} visitors are here, as many as may be\n");
+        let reason = format!("{n} clients are connected, the most allowed\n");
         return (StatusCode::SERVICE_UNAVAILABLE, reason).into_response();
     };
     upgrade
         .max_message_size(MAX_MESSAGE_BYTES)
         .max_frame_size(MAX_MESSAGE_BYTES)
-        .on_upgrade(move |socket| visit::receive(socket, seat))
+        .on_upgrade(move |socket| connection::serve(socket, studio, permit))
 }
 
 async fn post_map(State(studio): State<Arc<Studio>>, form: Multipart) -> Response {
@@ -132,7 +133,7 @@ async fn read_form(mut form: Multipart) -> Result<(Vec<Upload>, Option<f64>), St
 fn number(bytes: &Bytes) -> Result<f64, String> {
     let text = String::from_utf8_lossy(bytes);
     let number = text.trim().parse::<f64>();
-    number.map_err(|_| format!("resolution_m: {text:?} is no number"))
+    number.map_err(|_| format!("resolution_m: {text:?} is not a number"))
 }
 
 /// A kept map as a ROS map: `map.yaml` and `map.png`.

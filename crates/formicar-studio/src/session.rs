@@ -1,90 +1,68 @@
-//! One visitor: a map, a vehicle, two slots with warm planners; requests in their order.
+//! A client: its scene and two slots of plans; it carries out orders one after another.
 
-use crate::Studio;
-use crate::command;
-use crate::ground::Ground;
-use crate::maps::list;
+use crate::command_line;
 use crate::outbox::Outbox;
+use crate::plan_observer::{PlanObserver, PlanTicket};
+use crate::plan_slot::{FinishedPlan, SlotState};
 use crate::protocol::{
-    ClientMessage, DriveLaw, PictureFormat, PlanOrder, ServerMessage, Slot, StagesRecord, Tightest,
+    ClientMessage, DriveLaw, PictureFormat, PlanOrder, ServerMessage, Slot, StagesRecord,
 };
-use crate::warm::WarmShelf;
-use crate::watcher::{Watched, Watcher, cells};
-use formicar::map::BitGrid;
+use crate::scene::Scene;
+use crate::state::Studio;
+use crate::wanted::WantedPlans;
 use formicar::numeric::Seed;
 use formicar::path::CurvePath;
-use formicar::planner::{
-    Answer, AnswerContext, Outcome, PlanError, Planner, PlannerConfig, RequestDocument, Stages,
-    Timing,
-};
-use formicar::progress::IterationRecord;
+use formicar::planner::{AnswerContext, PlanError, RequestDocument, Timing};
 use formicar::render::{AnswerPicture, Layout, answer_picture};
 use formicar::scenario::Request;
 use formicar::tracking::{Controller, PurePursuit, Stanley, TrackingConfig, track};
 use serde_json::json;
 use std::sync::Arc;
-use std::sync::atomic::AtomicU64;
-use std::sync::mpsc::Receiver;
 use std::time::{Duration, Instant};
+use tokio::runtime::Handle;
+use tokio::sync::mpsc::Receiver;
 
 /// Width of a PNG, pixels.
 const PNG_WIDTH_PX: u32 = 1600;
 
-/// The newest plan that a visitor has asked for in each slot; whoever plans an older one stops.
-pub(crate) type Newest = [AtomicU64; 2];
-
-/// One visitor.
+/// A client.
 pub(crate) struct Session {
     studio: Arc<Studio>,
     outbox: Arc<Outbox>,
-    newest: Arc<Newest>,
-    ground: Option<Ground>,
+    wanted: Arc<WantedPlans>,
+    scene: Option<Scene>,
     slots: [SlotState; 2],
 }
 
-/// What is kept of a slot.
-#[derive(Default)]
-struct SlotState {
-    planner: Option<Planner>,
-    last: Option<Done>,
-}
-
-/// A plan that has ended.
-struct Done {
-    plan: u64,
-    answer: Answer,
-    outcome: Option<Outcome>,
-}
-
-/// Why something was not done; the page shows it.
+/// The reason for refusing an order; the page shows it.
 type Refusal = String;
 
-/// Where a map is needed.
+/// The refusal of an order that needs a map.
 const NO_MAP: &str = "no map is open; hint: open one first";
-/// Where a path is needed.
+/// The refusal of an order that needs a path.
 const NO_PLAN: &str = "there is no path yet; hint: plan one first";
 
 impl Session {
-    pub(crate) fn new(studio: Arc<Studio>, outbox: Arc<Outbox>, newest: Arc<Newest>) -> Self {
+    pub(crate) fn new(studio: Arc<Studio>, outbox: Arc<Outbox>, wanted: Arc<WantedPlans>) -> Self {
         Self {
             studio,
             outbox,
-            newest,
-            ground: None,
+            wanted,
+            scene: None,
             slots: Default::default(),
         }
     }
 
-    /// Does what is asked for until the visitor leaves.
-    pub(crate) fn run(mut self, orders: &Receiver<Result<ClientMessage, Refusal>>) {
+    /// Carries out orders until the client leaves. Blocks; the thread must belong to a runtime.
+    pub(crate) fn run(mut self, orders: &mut Receiver<Result<ClientMessage, Refusal>>) {
         let version = env!("CARGO_PKG_VERSION");
         self.outbox.put(ServerMessage::Hello { version }.text());
-        while let Ok(order) = orders.recv() {
+        while let Some(order) = orders.blocking_recv() {
             if self.outbox.is_closed() {
                 return;
             }
             let ((about, plan), done) = match order {
-                Ok(order) => (subject(&order), self.obey(order)),
+                Ok(order) => (subject(&order), self.carry_out(order)),
                 Err(refusal) => (("message", None), Err(refusal)),
             };
             if let Err(message) = done {
@@ -98,32 +76,32 @@ impl Session {
         }
     }
 
-    fn obey(&mut self, order: ClientMessage) -> Result<(), Refusal> {
+    fn carry_out(&mut self, order: ClientMessage) -> Result<(), Refusal> {
         match order {
             ClientMessage::OpenMap { map } => {
                 let opened = self.studio.maps.open(&map)?;
-                let ground = Ground::new(opened, self.ground.take());
-                self.outbox.put(ground.map_message());
-                self.outbox.put(ground.vehicle_message());
-                self.ground = Some(ground);
+                let scene = Scene::new(opened, self.scene.take());
+                self.outbox.put(scene.map_message());
+                self.outbox.put(scene.vehicle_message());
+                self.scene = Some(scene);
                 self.slots = Default::default();
                 Ok(())
             }
             ClientMessage::SetVehicle { vehicle } => {
-                let ground = self.ground.as_mut().ok_or(NO_MAP)?;
-                ground.set_vehicle(&vehicle)?;
-                self.outbox.put(ground.vehicle_message());
+                let scene = self.scene.as_mut().ok_or(NO_MAP)?;
+                scene.set_vehicle(&vehicle)?;
+                self.outbox.put(scene.vehicle_message());
                 self.slots = Default::default();
                 Ok(())
             }
             ClientMessage::Paint { region, values } => {
-                let ground = self.ground.as_mut().ok_or(NO_MAP)?;
+                let scene = self.scene.as_mut().ok_or(NO_MAP)?;
                 let planners = self.slots.iter_mut();
                 let planners = planners.filter_map(|slot| slot.planner.as_mut());
-                ground.paint(region, &values, planners)
+                scene.paint(region, &values, planners)
             }
             ClientMessage::Plan(order) => self.plan(&order),
-            // Whoever reads the messages has told the plan already.
+            // The task that reads messages has cancelled the plan already.
             ClientMessage::Cancel { .. } => Ok(()),
             ClientMessage::Drive {
                 slot,
@@ -132,9 +110,9 @@ impl Session {
             } => self.drive(slot, law, speed_mps),
             ClientMessage::Picture { slot, format } => self.picture(slot, format),
             ClientMessage::KeepMap => {
-                let ground = self.ground.as_ref().ok_or(NO_MAP)?;
-                let grid = ground.grid.clone();
-                let kept = self.studio.maps.keep(&ground.opened.name, grid)?;
+                let scene = self.scene.as_ref().ok_or(NO_MAP)?;
+                let grid = scene.grid.clone();
+                let kept = self.studio.maps.keep(&scene.opened.name, grid)?;
                 let hash = kept.hash.as_deref().unwrap_or_default();
                 self.outbox.put(ServerMessage::Kept { hash }.text());
                 Ok(())
@@ -144,51 +122,51 @@ impl Session {
 
     fn plan(&mut self, order: &PlanOrder) -> Result<(), Refusal> {
         let PlanOrder { plan, slot, .. } = *order;
-        let (newest, outbox) = (self.newest.clone(), self.outbox.clone());
-        let watched = Watched {
+        let (wanted, outbox) = (self.wanted.clone(), self.outbox.clone());
+        let ticket = PlanTicket {
             plan,
             slot,
             with_frames: order.watch,
-            newest: &newest[slot.index()],
+            wanted: &wanted,
             outbox: &outbox,
         };
         let studio = self.studio.clone();
-        let desk = studio.desks.sit_down(|| watched.is_wanted());
-        let Some(_desk) = desk.filter(|_| watched.is_wanted()) else {
+        let permit = wanted.permit(&studio.plans, || ticket.is_wanted());
+        let Some(_permit) = Handle::current().block_on(permit) else {
             outbox.put(ServerMessage::Dropped { plan, slot }.text());
             return Ok(());
         };
-        let done = self.make(order, watched)?;
-        self.tell(&done, order);
+        let done = self.make(order, ticket)?;
+        self.send_answer(&done, order);
         self.slots[slot.index()].last = Some(done);
         Ok(())
     }
 
     /// Makes a plan.
-    fn make(&mut self, order: &PlanOrder, watched: Watched) -> Result<Done, Refusal> {
+    fn make(&mut self, order: &PlanOrder, ticket: PlanTicket) -> Result<FinishedPlan, Refusal> {
         let setup = Instant::now();
         let config = serde_json::from_value(order.config.clone())
             .map_err(|error| format!("the planner's parameters: {error}"))?;
-        let ground = self.ground.as_ref().ok_or(NO_MAP)?;
+        let scene = self.scene.as_ref().ok_or(NO_MAP)?;
         let state = &mut self.slots[order.slot.index()];
         let previous = order.previous.map(|plan| state.path(plan)).transpose()?;
-        let planner = state.warm(ground, config, &self.studio.warm)?;
+        let planner = state.prepare(scene, config, &self.studio.planners)?;
         let map_setup_s = setup.elapsed().as_secs_f64();
 
-        let mut watcher = Watcher::new(watched, *ground.obstacles.frame());
+        let mut observer = PlanObserver::new(ticket, *scene.obstacles.frame());
         let longest = self.studio.options.limits.max_plan;
         let seed = Seed(order.seed);
         let (request, result) = match within(&order.request, longest) {
             Err(error) => (None, Err(error)),
             Ok(request) => {
                 let result = match &previous {
-                    Some(path) => planner.replan(&request, path, seed, &mut watcher),
-                    None => planner.plan(&request, seed, &mut watcher),
+                    Some(path) => planner.replan(&request, path, seed, &mut observer),
+                    None => planner.plan(&request, seed, &mut observer),
                 };
                 (Some(request), result)
             }
         };
-        let (first_feasible_s, query_s) = watcher.times_s();
+        let (first_feasible_s, query_s) = observer.times_s();
         let timing = Timing {
             map_setup_s,
             first_feasible_s,
@@ -197,44 +175,45 @@ impl Session {
         };
         let config = planner.config();
         let context = AnswerContext {
-            obstacles: &ground.obstacles,
-            map: ground.record(),
-            vehicle: &ground.vehicle,
-            vehicle_name: &ground.vehicle_name,
+            obstacles: &scene.obstacles,
+            map: scene.record(),
+            vehicle: &scene.vehicle,
+            vehicle_name: &scene.vehicle_name,
             config,
         };
         let answer = context.answer(request.as_ref(), seed, &result, timing);
-        self.studio.warm.keep(ground, planner);
-        Ok(Done {
+        self.studio.planners.keep(scene, planner);
+        Ok(FinishedPlan {
             plan: order.plan,
             answer,
             outcome: result.ok(),
         })
     }
 
-    /// Tells how a plan has ended.
-    fn tell(&self, done: &Done, order: &PlanOrder) {
-        let Some(ground) = &self.ground else {
+    /// Sends the answer of a plan that has ended.
+    fn send_answer(&self, done: &FinishedPlan, order: &PlanOrder) {
+        let Some(scene) = &self.scene else {
             return;
         };
-        let stages = done.outcome.as_ref().map(Outcome::stages);
         let answer = ServerMessage::Answer {
             plan: done.plan,
             slot: order.slot,
             answer: &done.answer,
-            history: stages.map_or(&[][..], history),
-            stages: stages
-                .filter(|_| order.watch)
-                .map_or_else(StagesRecord::default, stages_record),
-            tightest: done.tightest(ground),
-            cli: command::line(&done.answer, &order.request, ground.file(), order.seed),
-            toml: command::toml(&done.answer.provenance.config),
+            history: done.history(),
+            stages: if order.watch {
+                done.stages_record()
+            } else {
+                StagesRecord::default()
+            },
+            tightest: done.tightest(scene),
+            cli: command_line::line(&done.answer, &order.request, scene.file(), order.seed),
+            toml: command_line::toml(&done.answer.provenance.config),
         };
         self.outbox.put(answer.text());
     }
 
     fn drive(&self, slot: Slot, law: DriveLaw, speed_mps: Option<f64>) -> Result<(), Refusal> {
-        let ground = self.ground.as_ref().ok_or(NO_MAP)?;
+        let scene = self.scene.as_ref().ok_or(NO_MAP)?;
         let (done, path) = self.found(slot)?;
         let config = TrackingConfig {
             controller: match law {
@@ -245,12 +224,12 @@ impl Session {
             speed_mps,
             ..TrackingConfig::default()
         };
-        let driven = track(path, &ground.vehicle, &config).map_err(|error| error.to_string())?;
-        let clearance = driven.clearance(&ground.obstacles, &ground.vehicle);
+        let driven = track(path, &scene.vehicle, &config).map_err(|error| error.to_string())?;
+        let clearance = driven.clearance(&scene.obstacles, &scene.vehicle);
         let document = driven.document(&clearance);
         let contact = clearance.contact.map(|contact| {
-            let place = ground.obstacles.contact(&ground.vehicle, contact.pose);
-            json!({ "x": place.x, "y": place.y, "t_s": contact.t_s })
+            let point = scene.obstacles.contact(&scene.vehicle, contact.pose);
+            json!({ "x": point.x, "y": point.y, "t_s": contact.t_s })
         });
         let message = ServerMessage::Driven {
             slot,
@@ -268,16 +247,16 @@ impl Session {
     }
 
     fn picture(&self, slot: Slot, format: PictureFormat) -> Result<(), Refusal> {
-        let ground = self.ground.as_ref().ok_or(NO_MAP)?;
+        let scene = self.scene.as_ref().ok_or(NO_MAP)?;
         let done = self.slots[slot.index()].last.as_ref().ok_or(NO_PLAN)?;
         let outcome = done.outcome.as_ref().ok_or(NO_PLAN)?;
         let report = outcome.judged().map(|(_, report)| report);
         let picture = AnswerPicture {
-            map: &ground.grid,
-            vehicle: &ground.vehicle,
+            map: &scene.grid,
+            vehicle: &scene.vehicle,
             answer: &done.answer,
             outcome,
-            contact: report.map(|r| ground.obstacles.contact(&ground.vehicle, r.tightest)),
+            contact: report.map(|r| scene.obstacles.contact(&scene.vehicle, r.tightest)),
         };
         let picture = answer_picture(&picture, Layout::Page);
         let file = match format {
@@ -292,60 +271,14 @@ impl Session {
     }
 
     /// The last plan of a slot and its path.
-    fn found(&self, slot: Slot) -> Result<(&Done, &CurvePath), Refusal> {
+    fn found(&self, slot: Slot) -> Result<(&FinishedPlan, &CurvePath), Refusal> {
         let done = self.slots[slot.index()].last.as_ref().ok_or(NO_PLAN)?;
         let path = done.path().ok_or(NO_PLAN)?;
         Ok((done, path))
     }
 }
 
-impl SlotState {
-    /// The path of a plan.
-    fn path(&self, plan: u64) -> Result<CurvePath, Refusal> {
-        let done = self.last.as_ref().filter(|done| done.plan == plan);
-        let path = done.and_then(Done::path).cloned();
-        path.ok_or_else(|| {
-            format!("previous: {plan} is not the last plan of its slot that has a path")
-        })
-    }
-
-    /// The planner of this slot, made anew where it has other parameters.
-    fn warm(
-        &mut self,
-        ground: &Ground,
-        config: PlannerConfig,
-        shelf: &WarmShelf,
-    ) -> Result<&mut Planner, Refusal> {
-        let fits = |planner: &Planner| *planner.config() == config;
-        let kept = self.planner.take().filter(fits);
-        let planner = kept.map_or_else(|| shelf.planner(ground, config), Ok);
-        Ok(self
-            .planner
-            .insert(planner.map_err(|error| error.to_string())?))
-    }
-}
-
-impl Done {
-    fn path(&self) -> Option<&CurvePath> {
-        match self.outcome.as_ref()? {
-            Outcome::Found(plan) => Some(&plan.path),
-            Outcome::NotFound(_) => None,
-        }
-    }
-
-    fn tightest(&self, ground: &Ground) -> Option<Tightest> {
-        let (_, report) = self.outcome.as_ref()?.judged()?;
-        let place = ground.obstacles.contact(&ground.vehicle, report.tightest);
-        Some(Tightest {
-            x: place.x,
-            y: place.y,
-            clearance_m: report.min_clearance_m,
-            pose: list(report.tightest),
-        })
-    }
-}
-
-/// A request that ends after some time, if not by itself.
+/// The request of a document, with a time limit of at most `longest`.
 fn within(document: &RequestDocument, longest: Duration) -> Result<Request, PlanError> {
     let request = document.onto(&RequestDocument::default())?;
     let deadline = request.deadline.map_or(longest, |own| own.min(longest));
@@ -355,7 +288,7 @@ fn within(document: &RequestDocument, longest: Duration) -> Result<Request, Plan
     })
 }
 
-/// What an order is about, where it cannot be done.
+/// The subject of an order and its plan, for the message that refuses it.
 fn subject(order: &ClientMessage) -> (&'static str, Option<u64>) {
     match order {
         ClientMessage::OpenMap { .. } | ClientMessage::KeepMap => ("map", None),
@@ -365,22 +298,5 @@ fn subject(order: &ClientMessage) -> (&'static str, Option<u64>) {
         ClientMessage::Cancel { .. } => ("cancel", None),
         ClientMessage::Drive { .. } => ("drive", None),
         ClientMessage::Picture { .. } => ("picture", None),
-    }
-}
-
-fn history(stages: &Stages) -> &[IterationRecord] {
-    let colony = stages.colony.as_ref().map(|run| &run.history);
-    let history = colony.or(stages.evolution.as_ref().map(|run| &run.history));
-    history.map_or(&[], |history| &history.iterations)
-}
-
-fn stages_record(stages: &Stages) -> StagesRecord {
-    let set = |set: &BitGrid| set.iter().flat_map(|cell| [cell.col, cell.row]).collect();
-    let layers = stages.layers.as_ref();
-    StagesRecord {
-        expanded: layers.map(|layers| set(&layers.expanded)),
-        closed: layers.map(|layers| set(&layers.closed)),
-        grid_path: stages.grid_path.as_ref().map(|path| cells(&path.cells)),
-        nodes: (!stages.nodes.is_empty()).then(|| cells(&stages.nodes)),
     }
 }

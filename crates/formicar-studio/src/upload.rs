@@ -1,4 +1,4 @@
-//! Uploaded files to a map.
+//! Maps from uploaded files.
 
 use axum::body::Bytes;
 use formicar::map::OccupancyGrid;
@@ -19,12 +19,10 @@ impl Upload {
     }
 }
 
-/// The map in some files: a ROS YAML beside its image, or one file that stands alone. Its name
-/// with it.
+/// The name and the map in some files: a ROS YAML with its image, or a single file.
 ///
 /// # Errors
-/// Files of which none or several could be the map, a file that is wrong, or more cells than
-/// allowed.
+/// No file or several that could be the map, a malformed file, or too many cells.
 pub(crate) fn map(
     files: &[Upload],
     resolution_m: Option<f64>,
@@ -36,7 +34,7 @@ pub(crate) fn map(
     let (file, grid) = match (yaml, files) {
         (Some(yaml), _) => (yaml, ros(yaml, files, max_cells)?),
         (None, [file]) => (file, alone(file, resolution_m, max_cells)?),
-        (None, []) => return Err("no file came; hint: drop a map on the page".to_owned()),
+        (None, []) => return Err("no file was uploaded; hint: drop a map on the page".to_owned()),
         (None, _) => {
             let n = files.len();
             return Err(format!(
@@ -58,7 +56,7 @@ fn ros(yaml: &Upload, files: &[Upload], max_cells: usize) -> Result<OccupancyGri
     let image = image.ok_or_else(|| {
         let named = named.to_string_lossy();
         failed(&format!(
-            "its image {named} did not come; hint: drop both files together"
+            "its image {named} was not uploaded; hint: drop both files together"
         ))
     })?;
     check_png(image, max_cells)?;
@@ -76,7 +74,7 @@ fn alone(
     map_from_bytes(Path::new(&file.name), &file.bytes, &options).map_err(|e| e.to_string())
 }
 
-/// Refuses an image that is small as a file and large as a map before it is unpacked.
+/// Refuses an image with too many pixels before it is decompressed.
 fn check_png(file: &Upload, max_cells: usize) -> Result<(), String> {
     let number = |at: usize| {
         let bytes = file.bytes.get(at..at + 4)?;
@@ -136,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_map_is_refused() {
+    fn files_that_are_no_map_are_refused() {
         assert!(map(&[], None, 100).is_err());
         assert!(map(&[file("notes.txt", "hello")], None, 100).is_err());
         assert!(map(&[file("a.yaml", vec![0xff, 0xfe])], None, 100).is_err());

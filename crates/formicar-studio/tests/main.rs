@@ -2,5 +2,6 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests may fail")]
 
 mod common;
+mod protocol;
 mod robust;
 mod session;

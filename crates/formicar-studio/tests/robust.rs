@@ -129,7 +129,7 @@ fn uploads_are_read_or_refused_with_a_reason() {
         ),
         ("yard.exe", b"MZ", None, "exe"),
         ("large.map", large.as_bytes(), None, "at most 100"),
-        ("yard.map", map, Some("wide"), "no number"),
+        ("yard.map", map, Some("wide"), "not a number"),
         ("long.map", &[b'.'; 9000], None, ""),
     ] {
         let answer = upload(at, name, bytes, resolution_m);
@@ -160,7 +160,7 @@ fn a_slow_visitor_stalls_nobody() {
             other.say(&plan(1, "astar", LEI_MAP1)).await;
             other.wait_for("answer").await;
         }
-        // And one that has left in the middle of a plan leaves its desk to others.
+        // And one that has left in the middle of a plan releases its permit to others.
         drop(slow);
         let mut other = Visitor::on(at, "lei-map1").await;
         other.say(&plan(1, "lei2020", LEI_MAP1)).await;
@@ -190,7 +190,7 @@ fn a_hundred_visitors_at_once_are_all_served() {
 }
 
 #[test]
-fn who_comes_when_all_places_are_taken_is_told_so() {
+fn a_client_beyond_the_limit_is_refused() {
     let limits = Limits {
         max_clients: 2,
         ..Limits::default()

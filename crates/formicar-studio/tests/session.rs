@@ -1,4 +1,4 @@
-//! What a visitor can ask for, and what comes of it.
+//! The orders of a visitor and their results.
 
 use crate::common::{LEI_MAP1, NEIGHBORHOOD, Visitor, get, plan, run, studio};
 use formicar_studio::Options;

@@ -4,7 +4,7 @@
 import { cp, mkdir, readFile } from "node:fs/promises";
 import { build, context } from "esbuild";
 
-/** What is bundled from others, with their licenses. */
+/** The license of the bundled library. */
 const license = await readFile("node_modules/uplot/LICENSE", "utf8");
 
 const place = process.argv.indexOf("--out");

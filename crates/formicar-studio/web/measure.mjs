@@ -1,4 +1,4 @@
-/** How fast the studio is: a page in a real browser, and a hundred visitors at once. Prints tables.
+/** Measures the speed of the studio: a page in a real browser, and a hundred clients at once. Prints tables.
  *
  * `npm run measure`, with the release binary built. Nothing of it is tested: figures depend on the
  * machine and on what else it does. */
@@ -132,9 +132,9 @@ async function visitors() {
   const all = (key) => visits.flatMap((one) => one[key]);
   const count = (key) => visits.reduce((sum, one) => sum + one[key], 0);
   const statuses = grouped(all("statuses"));
-  const told = Object.entries(statuses).map(([status, list]) => `${list.length} ${status}`);
+  const result = Object.entries(statuses).map(([status, list]) => `${list.length} ${status}`);
   console.log(`${N_CLIENTS} visitors at once, each plans ${N_PLANS} times on neighborhood with frames: ${tookS.toFixed(1)} s`);
-  console.log(`plans asked for ${N_CLIENTS * N_PLANS}, answers ${all("statuses").length} (${told.join(", ")})`);
+  console.log(`plans asked for ${N_CLIENTS * N_PLANS}, answers ${all("statuses").length} (${result.join(", ")})`);
   console.log(`errors ${count("nErrors")}, lines that broke ${count("nBroken")}, frames ${count("nFrames")}, MiB ${(count("nBytes") / 2 ** 20).toFixed(0)}`);
   table("of a plan, ms", [
     ["to its first path", all("firstMs")],
@@ -146,7 +146,7 @@ async function visitors() {
 
 /** One visitor: all that came, and how long it took. */
 function visit(index, config) {
-  const told = { statuses: [], firstMs: [], answerMs: [], queryMs: [], nErrors: 0, nBroken: 0, nFrames: 0, nBytes: 0 };
+  const result = { statuses: [], firstMs: [], answerMs: [], queryMs: [], nErrors: 0, nBroken: 0, nFrames: 0, nBytes: 0 };
   const socket = new WebSocket(`${server.url.replace("http", "ws")}ws`);
   socket.binaryType = "arraybuffer";
   const say = (message) => socket.send(JSON.stringify(message));
@@ -160,27 +160,27 @@ function visit(index, config) {
   };
   return new Promise((done) => {
     socket.onclose = () => {
-      if (plan < N_PLANS || told.statuses.length < N_PLANS) told.nBroken += 1;
-      done(told);
+      if (plan < N_PLANS || result.statuses.length < N_PLANS) result.nBroken += 1;
+      done(result);
     };
     socket.onmessage = ({ data }) => {
       const message = JSON.parse(headerOf(data));
-      told.nBytes += typeof data === "string" ? data.length : data.byteLength;
+      result.nBytes += typeof data === "string" ? data.length : data.byteLength;
       const sinceMs = performance.now() - askedMs;
       if (message.type === "hello") say({ type: "open_map", map: { builtin: "neighborhood" } });
       else if (message.type === "vehicle") ask();
-      else if (message.type === "error") told.nErrors += 1;
+      else if (message.type === "error") result.nErrors += 1;
       else if (message.type === "improved" && !hasPath) {
         hasPath = true;
-        told.firstMs.push(sinceMs);
+        result.firstMs.push(sinceMs);
       } else if (message.type === "answer") {
-        told.statuses.push(message.answer.status);
-        told.answerMs.push(sinceMs);
-        told.queryMs.push(1000 * message.answer.timing.query_s);
+        result.statuses.push(message.answer.status);
+        result.answerMs.push(sinceMs);
+        result.queryMs.push(1000 * message.answer.timing.query_s);
         if (plan < N_PLANS) ask();
         else socket.close();
       }
-      if (["improved", "drive", "expanded"].includes(message.type)) told.nFrames += 1;
+      if (["improved", "drive", "expanded"].includes(message.type)) result.nFrames += 1;
     };
   });
 }

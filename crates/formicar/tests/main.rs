@@ -5,7 +5,6 @@
     reason = "helpers of tests may fail, say that they skip, and tell what they measured"
 )]
 
-mod architecture;
 mod chords;
 mod collision;
 mod colony;

@@ -1,10 +1,10 @@
-//! `check`: the judge on any path, ours or foreign.
+//! `check`: the judge on a path of any origin.
 
-use super::subject::{self, Source, Subject};
-use crate::args::CheckArgs;
 use crate::failure::{Ending, Failure};
-use crate::ground;
+use crate::path_file::{self, PathFile, Source};
+use crate::scene::{self, SceneArgs};
 use crate::summary::{clearance, curvature};
+use clap::{Args, ValueHint};
 use formicar::collision::ObstacleMap;
 use formicar::geometry::wrap_angle;
 use formicar::numeric::counted;
@@ -14,48 +14,62 @@ use formicar::validation::Report;
 use formicar::vehicle::Vehicle;
 use serde::Serialize;
 use std::io::{self, Write};
+use std::path::PathBuf;
 
-/// What `check --json` prints.
+/// Flags of `check`.
+#[derive(Args, Debug)]
+pub(crate) struct CheckArgs {
+    /// The path: an answer of `plan` (.json), or a CSV of x, y[, heading] in meters and radians;
+    /// `-` reads it from stdin.
+    #[arg(value_name = "PATH", value_hint = ValueHint::FilePath)]
+    path: PathBuf,
+
+    #[command(flatten)]
+    scene: SceneArgs,
+
+    /// Print the report as one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+/// The document that `check --json` prints.
 #[derive(Debug, Serialize)]
 struct Checked {
     schema: &'static str,
     valid: bool,
-    /// How the path was read.
+    /// The kind of the path file.
     source: Source,
     /// Share by which the curvature may exceed the vehicle's limit.
     curvature_slack: f64,
-    /// How far the path that was judged may pass by the samples: they are rounded.
+    /// Largest distance between the judged path and the samples, which are rounded.
     sample_deviation_m: f64,
     /// The gear in which the path begins: 1 forward, -1 in reverse.
     first_gear: Direction,
     length_m: f64,
     n_segments: usize,
     certificate: Report,
-    /// Whether the sampled poses of an answer lie on its segments; null of other paths.
+    /// Whether the sampled poses of an answer lie on its segments; null for other paths.
     poses_on_segments: Option<bool>,
-    /// Whether the certificate on record was for this map, vehicle and path.
+    /// Whether the recorded certificate is for this map, vehicle and path.
     matches_record: Option<Matches>,
 }
 
-#[allow(
-    clippy::struct_excessive_bools,
-    reason = "one word per thing on record"
-)]
+#[allow(clippy::struct_excessive_bools, reason = "one flag per recorded hash")]
 #[derive(Clone, Copy, Debug, Serialize)]
 struct Matches {
     map: bool,
     vehicle: bool,
     path: bool,
-    /// Whether the certificate's numbers are those the judge finds.
+    /// Whether the recorded numbers are those that the judge finds.
     numbers: bool,
 }
 
 /// Carries out `check`.
 pub(crate) fn run(args: &CheckArgs, out: &mut impl Write) -> Result<Ending, Failure> {
-    let ground = ground::load(&args.ground)?;
-    let vehicle = &ground.vehicle.vehicle;
-    let subject = subject::read(&args.path, vehicle)?;
-    let checked = check(&subject, &ObstacleMap::new(&ground.map), vehicle);
+    let scene = scene::load(&args.scene)?;
+    let vehicle = &scene.vehicle.vehicle;
+    let file = path_file::read(&args.path, vehicle)?;
+    let checked = check(&file, &ObstacleMap::new(&scene.map), vehicle);
     if args.json {
         serde_json::to_writer(&mut *out, &checked).map_err(io::Error::from)?;
         writeln!(out)?;
@@ -69,25 +83,25 @@ pub(crate) fn run(args: &CheckArgs, out: &mut impl Write) -> Result<Ending, Fail
     })
 }
 
-fn check(subject: &Subject, obstacles: &ObstacleMap, vehicle: &Vehicle) -> Checked {
-    let (path, report) = subject.judged(obstacles, vehicle);
-    let matches_record = subject.hashes.as_ref().map(|record| Matches {
+fn check(file: &PathFile, obstacles: &ObstacleMap, vehicle: &Vehicle) -> Checked {
+    let (path, report) = file.judged(obstacles, vehicle);
+    let matches_record = file.hashes.as_ref().map(|record| Matches {
         map: record.map_hash == report.map_hash,
         vehicle: record.vehicle_hash == report.vehicle_hash,
         path: record.path_hash == report.path_hash,
-        numbers: subject.numbers.is_some_and(|n| are_numbers_of(n, &report)),
+        numbers: file.numbers.is_some_and(|n| are_numbers_of(n, &report)),
     });
     // Only a valid path is short enough to be sampled.
-    let poses_on_segments = match &subject.poses {
+    let poses_on_segments = match &file.poses {
         Some(poses) if report.valid => Some(are_on(poses, path)),
         _ => None,
     };
     Checked {
         schema: "formicar/check/1",
         valid: report.valid && poses_on_segments != Some(false),
-        source: subject.source,
-        curvature_slack: subject.curvature_slack(),
-        sample_deviation_m: subject.sample_deviation_m,
+        source: file.source,
+        curvature_slack: file.curvature_slack(),
+        sample_deviation_m: file.sample_deviation_m,
         first_gear: first_gear(path),
         length_m: path.length_m(),
         n_segments: path.segments().len(),
@@ -97,7 +111,7 @@ fn check(subject: &Subject, obstacles: &ObstacleMap, vehicle: &Vehicle) -> Check
     }
 }
 
-/// How far numbers on record may be from those found now, in their units: machines round
+/// Tolerance between recorded numbers and those found now, in their units: machines round
 /// differently.
 const RECORD_TOLERANCE: f64 = 1e-6;
 
@@ -174,13 +188,13 @@ fn explain(checked: &Checked, vehicle: &Vehicle, out: &mut impl Write) -> io::Re
     if !checked.valid && is_coarse {
         writeln!(
             out,
-            "hint       points this coarse hardly tell the curvature; write headings or more decimals"
+            "hint       points this coarse do not determine the curvature; write headings or more decimals"
         )?;
     }
     Ok(())
 }
 
-/// Deviation above which bare points zigzag too much to tell the curvature, metres.
+/// Deviation above which bare points zigzag too much to determine the curvature, meters.
 const COARSE_M: f64 = 1e-4;
 
 fn reconstructed(what: &str, checked: &Checked) -> String {

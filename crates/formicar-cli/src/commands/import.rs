@@ -2,9 +2,9 @@
 #![allow(clippy::doc_markdown, reason = "clap prints these words as they stand")]
 
 use super::bench::measure;
-use crate::args::GroundArgs;
 use crate::failure::{Ending, Failure};
-use crate::{files, ground, values};
+use crate::scene::SceneArgs;
+use crate::{files, scene, values};
 use anyhow::{Context, Result, anyhow, bail};
 use clap::{Args, ValueHint};
 use formicar::collision::ObstacleMap;
@@ -50,13 +50,13 @@ pub(crate) struct ImportArgs {
     #[arg(long, value_name = "S", value_parser = values::positive, allow_hyphen_values = true)]
     first: Option<f64>,
 
-    /// Which gears the planner might use.
+    /// Gears that the planner could use.
     #[arg(long, value_name = "MODE", default_value = "reverse",
           value_parser = values::word::<MotionMode>(&["forward", "reverse"]))]
     motion: MotionMode,
 
-    /// How far the path may end off the goal, metres and radians: planners over grids of poses
-    /// seldom end nearer than a cell.
+    /// Tolerance at the goal, meters and radians: planners over grids of poses seldom end nearer
+    /// than a cell.
     #[arg(long, value_name = "M,RAD", value_parser = values::goal_tolerance)]
     goal_tolerance: Option<GoalTolerance>,
 
@@ -66,14 +66,14 @@ pub(crate) struct ImportArgs {
     trust: bool,
 
     #[command(flatten)]
-    ground: GroundArgs,
+    ground: SceneArgs,
 
     /// Table that takes the rows; made where it does not exist.
     #[arg(long, value_name = "F.csv", value_hint = ValueHint::FilePath)]
     out: PathBuf,
 }
 
-/// What all runs share.
+/// The scene and request that all runs share.
 struct Place {
     scenario: String,
     source: String,
@@ -126,7 +126,7 @@ fn check(args: &ImportArgs) -> Result<()> {
 
 impl Place {
     fn of(args: &ImportArgs) -> Result<Self> {
-        let ground = ground::load(&args.ground)?;
+        let ground = scene::load(&args.ground)?;
         let (scenario, source) = names(args)?;
         let hint = "the map has no start and goal; hint: --scenario F, or a built-in map";
         let [start, goal] = ground.ends.context(hint)?;
@@ -174,9 +174,9 @@ fn names(args: &ImportArgs) -> Result<(String, String)> {
 
 /// The id of the only scenario of a file.
 fn first_id(path: &Path) -> Result<String> {
-    let id = match files::ScenarioFile::read(path)? {
-        files::ScenarioFile::Cars(cars) => cars.rows().into_iter().next().map(|(id, _)| id),
-        files::ScenarioFile::Tpcap(case) => Some(case.row().0),
+    let id = match scene::ScenarioFile::read(path)? {
+        scene::ScenarioFile::Cars(cars) => cars.rows().into_iter().next().map(|(id, _)| id),
+        scene::ScenarioFile::Tpcap(case) => Some(case.row().0),
     };
     id.with_context(|| format!("{}: it holds no scenarios", path.display()))
 }

@@ -1,13 +1,37 @@
 //! `list`: planners, built-in vehicles and maps, scenarios.
 
-use crate::args::{ListArgs, Listing};
 use crate::failure::{Ending, Failure};
-use crate::files::ScenarioFile;
+use crate::scene::ScenarioFile;
 use anyhow::{Result, anyhow};
+use clap::{Args, ValueEnum, ValueHint};
 use formicar::map::builtin;
 use formicar::planner::PlannerName;
 use formicar::vehicle::{Motion, PRESET_NAMES, Vehicle};
 use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Flags of `list`.
+#[derive(Args, Debug)]
+pub(crate) struct ListArgs {
+    /// The things to list.
+    what: Listing,
+    /// Scenario file, for `scenarios`; the requests of the built-in maps without one.
+    #[arg(value_hint = ValueHint::FilePath)]
+    file: Option<PathBuf>,
+}
+
+/// The things that can be listed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Listing {
+    /// Planners.
+    Planners,
+    /// Built-in vehicles.
+    Vehicles,
+    /// Built-in maps.
+    Maps,
+    /// Requests of the built-in maps, or the scenarios of a file.
+    Scenarios,
+}
 
 /// Carries out `list`.
 pub(crate) fn run(args: &ListArgs, out: &mut impl Write) -> Result<Ending, Failure> {
@@ -29,7 +53,7 @@ pub(crate) fn run(args: &ListArgs, out: &mut impl Write) -> Result<Ending, Failu
     Ok(Ending::Done)
 }
 
-/// A name and what stands behind it.
+/// A name and its description.
 type Row = (String, String);
 
 fn planners() -> Vec<Row> {
@@ -71,7 +95,7 @@ fn requests() -> Vec<Row> {
     builtin::all().iter().map(row).collect()
 }
 
-fn scenarios(path: &std::path::Path) -> Result<Vec<Row>> {
+fn scenarios(path: &Path) -> Result<Vec<Row>> {
     Ok(match ScenarioFile::read(path)? {
         ScenarioFile::Cars(cars) => cars.rows(),
         ScenarioFile::Tpcap(case) => vec![case.row()],

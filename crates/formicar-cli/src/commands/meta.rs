@@ -1,12 +1,34 @@
-//! `schema`, `completions`, `man`: what the program says about itself.
+//! `schema`, `completions`, `man`: the program describes itself.
 
-use crate::args::{Cli, Document, SchemaArgs};
 use crate::failure::{Ending, Failure};
-use clap::CommandFactory;
+use clap::{Args, Command, ValueEnum};
 use formicar::planner::{Answer, PlannerConfig, RequestDocument};
 use formicar::tracking::TrackingDocument;
 use formicar::vehicle::VehicleParameters;
 use std::io::Write;
+
+/// Flags of `schema`.
+#[derive(Args, Debug)]
+pub(crate) struct SchemaArgs {
+    /// The document.
+    #[arg(default_value = "config")]
+    document: Document,
+}
+
+/// Documents with a schema.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Document {
+    /// Planner parameters: `plan --config`, `plan --set`.
+    Config,
+    /// A vehicle file: `--vehicle`.
+    Vehicle,
+    /// A line of `plan --stdin`.
+    Request,
+    /// The output of `plan --json`.
+    Answer,
+    /// The output of `track --json`.
+    Track,
+}
 
 /// Prints the JSON schema of a document.
 pub(crate) fn schema(args: &SchemaArgs, out: &mut impl Write) -> Result<Ending, Failure> {
@@ -22,20 +44,21 @@ pub(crate) fn schema(args: &SchemaArgs, out: &mut impl Write) -> Result<Ending, 
     Ok(Ending::Done)
 }
 
-/// Prints the completions of a shell.
+/// Prints the completions of a command line for a shell.
 pub(crate) fn completions(
     shell: clap_complete::Shell,
+    mut command: Command,
     out: &mut impl Write,
 ) -> Result<Ending, Failure> {
     // The generator panics where its writer fails, so it never sees the pipe.
     let mut text = Vec::new();
-    clap_complete::generate(shell, &mut Cli::command(), "formicar", &mut text);
+    clap_complete::generate(shell, &mut command, "formicar", &mut text);
     out.write_all(&text)?;
     Ok(Ending::Done)
 }
 
-/// Prints the manual page.
-pub(crate) fn man(out: &mut impl Write) -> Result<Ending, Failure> {
-    clap_mangen::Man::new(Cli::command()).render(out)?;
+/// Prints the manual page of a command line.
+pub(crate) fn man(command: Command, out: &mut impl Write) -> Result<Ending, Failure> {
+    clap_mangen::Man::new(command).render(out)?;
     Ok(Ending::Done)
 }

@@ -260,8 +260,8 @@ fn value(column: &str, text: &str) -> Value {
 
 #[cfg(test)]
 mod tests {
-    use super::super::plan::tests::campaign;
     use super::*;
+    use crate::campaign::plan::tests::campaign;
     use crate::campaign::record::{History, Improvement, Origin};
     use crate::campaign::row::Row;
     use serde_json::json;

@@ -156,8 +156,8 @@ fn check_budget(case: &mut Case, drawn: &Drawn, n_steps: u64) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::ground::Kind;
     use super::*;
+    use crate::stress::ground::Kind;
     use formicar::map::OCCUPIED;
 
     #[test]

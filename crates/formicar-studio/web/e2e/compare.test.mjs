@@ -22,7 +22,7 @@ studio.scene("two planners are compared, with a table of differences", {}, async
   assert.ok(a.isCertified && b.isCertified);
   assert.deepEqual(a.request, b.request);
   assert.equal(await page.locator(".map-host:visible").count(), 2);
-  await until(page, "both verdicts are told", () => document.querySelectorAll('.status-line[data-kind="good"]').length === 2);
+  await until(page, "both verdicts are shown", () => document.querySelectorAll('.status-line[data-kind="good"]').length === 2);
 
   const heads = await page.locator(".differences thead th").allInnerTexts();
   assert.deepEqual(heads, ["A formicar", "B hybrid-astar", "B − A"]);
@@ -49,7 +49,7 @@ studio.scene("two planners are compared, with a table of differences", {}, async
   assert.equal(await page.locator(".status-line").count(), 1);
 });
 
-studio.scene("two settings of one planner are compared, and their parameters told", {}, async (page) => {
+studio.scene("two settings of one planner are compared, and their parameters shown", {}, async (page) => {
   await openBuiltin(page, "narrow-junction");
   const panel = await openPanel(page, "compare");
   await panel.getByRole("button", { name: "Compare" }).click();

@@ -12,7 +12,7 @@ studio.scene("the vehicle drives to the goal, its wheels steer, and charts know 
   await certified(page);
   const panel = await openPanel(page, "drive");
   await panel.getByRole("button", { name: "Drive", exact: true }).click();
-  await panel.getByText("It arrives, and touches nothing").waitFor();
+  await panel.getByText("The vehicle arrives without contact").waitFor();
   const wheels = () => panel.locator(".wheel").evaluateAll((all) => all.map((wheel) => wheel.getAttribute("transform")));
   await until(page, "it drives", () => (window.formicar.store.state.driveS ?? 0) > 0.5);
   await panel.getByRole("button", { name: "Pause the drive" }).click();
@@ -59,7 +59,7 @@ studio.scene("an obstacle is dropped on the way: it replans from where it is, an
   assert.ok(away.isValid && away.tracked);
   assert.ok(away.poses.every(({ x, y }) => Math.abs(x - 18) > 0.3 || Math.abs(y - 10) > 1.5), "around the obstacle");
   assert.deepEqual(await see(page, ({ request }) => request.start), [4, 10, 0], "what was asked stays");
-  await panel.getByText("It arrives, and touches nothing").waitFor();
+  await panel.getByText("The vehicle arrives without contact").waitFor();
   await panel.getByRole("combobox", { name: "Playback speed" }).selectOption("50");
   await panel.getByRole("button", { name: "Play the drive" }).click();
   await until(page, "it arrives", () => {

@@ -1,4 +1,4 @@
-/** What can be taken away: the path, pictures, a line for a terminal and a configuration file. */
+/** Exports: the path, pictures, a command line and a configuration file. */
 
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";

@@ -1,4 +1,4 @@
-/** What is there without a click. */
+/** The first scene, before any click. */
 
 import assert from "node:assert/strict";
 import { answered, certified, inkOf, nextFrame, see, until, useStudio } from "./studio.mjs";
@@ -35,9 +35,9 @@ studio.scene("the race is drawn while it is played", { reducedMotion: "no-prefer
   assert.notEqual(await inkOf(page, "over"), over, "ants have moved");
 
   const at = await see(page, ({ slots }) => slots.a.plan.frames.findIndex(({ type }) => type === "expanded"));
-  await page.getByRole("slider", { name: "Moment of the run" }).fill("0");
+  await page.getByRole("slider", { name: "Position in the run" }).fill("0");
   const blank = await inkOf(page, "search");
-  await page.getByRole("slider", { name: "Moment of the run" }).fill(String(at));
+  await page.getByRole("slider", { name: "Position in the run" }).fill(String(at));
   await until(page, "the frame is shown", (at) => window.formicar.store.state.frame === at, at);
   await nextFrame(page);
   assert.notEqual(await inkOf(page, "search"), blank, "hybrid A* has grown");

@@ -88,7 +88,7 @@ async function refused(page, thing, value) {
   await alert.waitFor({ state: "hidden" });
 }
 
-studio.scene("a vehicle's measures are edited, and wrong ones are told of", {}, async (page) => {
+studio.scene("a vehicle's measures are edited, and wrong ones are refused", {}, async (page) => {
   await certified(page);
   const { plan } = await answered(page);
   const panel = await openPanel(page, "vehicle");

@@ -15,7 +15,7 @@ export async function openHall(page) {
   ]);
   await chooser.setFiles([movingAi(hall(120, 80))]);
   const dialog = page.getByRole("dialog");
-  await dialog.getByLabel("Side of a cell").fill("0.25");
+  await dialog.getByLabel("Cell size").fill("0.25");
   await dialog.getByRole("button", { name: "Open", exact: true }).click();
   await until(page, "the hall is open", () => window.formicar.store.state.map?.n_cols === 120);
   for (const [end, pose] of Object.entries(POSES)) await typePose(panel, end, pose);
@@ -30,7 +30,7 @@ export async function openHall(page) {
 }
 
 async function typePose(panel, end, pose) {
-  for (const [i, name] of ["x in metres", "y in metres", "heading in degrees"].entries()) {
+  for (const [i, name] of ["x in meters", "y in meters", "heading in degrees"].entries()) {
     const field = panel.getByLabel(`${end}: ${name}`);
     await field.fill(String(pose[i]));
     await field.press("Enter");

@@ -5,7 +5,7 @@ import { certified, inkOf, until, useStudio } from "./studio.mjs";
 
 const studio = useStudio();
 
-/** How bright a page and its map are, 0 to 255. */
+/** The brightness of a page and its map, 0 to 255. */
 function brightness(page) {
   return page.evaluate(() => {
     const mean = ([r, g, b]) => (r + g + b) / 3;

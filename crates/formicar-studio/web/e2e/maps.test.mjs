@@ -60,7 +60,7 @@ studio.scene("a ROS map is opened from its YAML and its image", {}, async (page)
 studio.scene("a MovingAI map is asked for the side of its cells", {}, async (page) => {
   await choose(page, [movingAi(ROWS)]);
   const dialog = page.getByRole("dialog", { name: "Open hall.map" });
-  await dialog.getByLabel("Side of a cell").fill("0.4");
+  await dialog.getByLabel("Cell size").fill("0.4");
   await dialog.getByRole("button", { name: "Open", exact: true }).click();
   await opened(page);
   const map = await see(page, mapOf);
@@ -81,7 +81,7 @@ studio.scene("a file is dropped on the page", {}, async (page) => {
   await page.dispatchEvent("main", "drop", { dataTransfer: carried });
   await page.getByText("Drop a map: ROS YAML").waitFor({ state: "hidden" });
   const dialog = page.getByRole("dialog", { name: "Open hall.png" });
-  await dialog.getByLabel("Side of a cell").fill("0.3");
+  await dialog.getByLabel("Cell size").fill("0.3");
   await page.keyboard.press("Enter");
   await opened(page);
   const map = await see(page, mapOf);

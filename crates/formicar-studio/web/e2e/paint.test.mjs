@@ -83,7 +83,7 @@ studio.scene("the brush has a width", {}, async (page) => {
   const { plan } = await openHall(page);
   const before = await nOccupied(page);
   await page.getByRole("button", { name: "Paint obstacles" }).click();
-  await page.getByRole("slider", { name: "Width of the brush" }).fill("0");
+  await page.getByRole("slider", { name: "Brush width" }).fill("0");
   const { toPx } = await lens(page);
   await drag(page, [toPx([14, 16]), toPx([14, 18])]);
   const thin = (await nOccupied(page)) - before;

@@ -145,7 +145,7 @@ export function nextFrame(page) {
   return page.evaluate(twice);
 }
 
-/** What `part` takes from the page's state. */
+/** The part of the page's state that `part` selects. */
 export function see(page, part) {
   return page.evaluate(`(${part})(window.formicar.store.state)`);
 }
@@ -221,7 +221,7 @@ export async function choosePlanner(page, name) {
   return replanned(page, () => panel.getByRole("combobox", { name: "Planner" }).selectOption(name));
 }
 
-/** How places of the world lie in the window: the handles tell. */
+/** The map from world to window coordinates, derived from the handles. */
 export async function lens(page, slot = "a") {
   const center = async (end) => {
     const box = await page.locator(`.map-host[data-slot=${slot}] .map-handle[data-end=${end}]`).boundingBox();

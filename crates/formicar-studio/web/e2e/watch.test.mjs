@@ -1,4 +1,4 @@
-/** A colony's run is watched: played, paused, stepped, scrubbed, and told step by step. */
+/** A colony's run is watched: played, paused, stepped, scrubbed, and shown step by step. */
 
 import assert from "node:assert/strict";
 import { choosePlanner, inkOf, nextFrame, openBuiltin, see, until, useStudio } from "./studio.mjs";
@@ -12,7 +12,7 @@ async function openColony(page) {
   return answer;
 }
 
-const slider = (page) => page.getByRole("slider", { name: "Moment of the run" });
+const slider = (page) => page.getByRole("slider", { name: "Position in the run" });
 const frameOf = (page) => see(page, ({ frame }) => frame);
 
 studio.scene("a run is played, paused, stepped and scrubbed", {}, async (page) => {
@@ -38,11 +38,11 @@ studio.scene("a run is played, paused, stepped and scrubbed", {}, async (page) =
   assert.equal(await frameOf(page), paused - 1);
 
   await slider(page).fill("0");
-  await until(page, "the first frame is told", () => /iteration 1:/.test(document.querySelector(".player-words").textContent));
+  await until(page, "the first frame is described", () => /iteration 1:/.test(document.querySelector(".player-words").textContent));
   await nextFrame(page);
   const [ground, ants] = [await inkOf(page, "base"), await inkOf(page, "over")];
   await slider(page).fill(String(Math.floor(nFrames / 2)));
-  await until(page, "another frame is told", () => !/iteration 1:/.test(document.querySelector(".player-words").textContent));
+  await until(page, "another frame is described", () => !/iteration 1:/.test(document.querySelector(".player-words").textContent));
   await nextFrame(page);
   assert.notEqual(await inkOf(page, "base"), ground, "pheromone has changed");
   assert.notEqual(await inkOf(page, "over"), ants, "ants have changed");
@@ -67,27 +67,27 @@ studio.scene("the keys of a player", {}, async (page) => {
   assert.equal(await see(page, ({ isPlaying }) => isPlaying), false);
 });
 
-studio.scene("the papers' steps are told, one by one", {}, async (page) => {
+studio.scene("the steps of a plan are shown one by one", {}, async (page) => {
   const { stages } = await openColony(page);
   assert.ok(stages.expanded.length > 0 && stages.closed.length > 0, "obstacles grow, and U-shapes are closed");
   await page.getByRole("button", { name: "Step by step" }).click();
   const card = page.getByRole("region", { name: "The plan step by step" });
   const next = card.getByRole("button", { name: "Next step" });
-  const told = [];
+  const shown = [];
   for (;;) {
     await nextFrame(page);
-    told.push({ words: await card.locator(".teller-words").innerText(), ink: (await inkOf(page, "base")) + (await inkOf(page, "over")) });
+    shown.push({ words: await card.locator(".stepper-words").innerText(), ink: (await inkOf(page, "base")) + (await inkOf(page, "over")) });
     if (await next.isDisabled()) break;
     await next.click();
   }
-  const titles = told.map(({ words }) => words.split(".")[0]);
-  assert.deepEqual(titles, ["The map", "Obstacles expanded", "U-shapes closed", "The way over cells", "Nodes removed", "Arcs fitted", "Judged"]);
-  assert.match(told[1].words, new RegExp(`${stages.expanded.length / 2} cells`));
-  assert.match(told[2].words, new RegExp(`${stages.closed.length / 2} cells`));
-  assert.match(told[6].words, /certifies it/);
-  assert.ok(new Set(told.map(({ ink }) => ink)).size >= 6, "each step is another picture");
+  const titles = shown.map(({ words }) => words.split(".")[0]);
+  assert.deepEqual(titles, ["The map", "Obstacles expanded", "U-shapes closed", "The path over cells", "Nodes removed", "Arcs fitted", "Judged"]);
+  assert.match(shown[1].words, new RegExp(`${stages.expanded.length / 2} cells`));
+  assert.match(shown[2].words, new RegExp(`${stages.closed.length / 2} cells`));
+  assert.match(shown[6].words, /certifies it/);
+  assert.ok(new Set(shown.map(({ ink }) => ink)).size >= 6, "each step is another picture");
 
-  await card.getByRole("button", { name: "Step before" }).click();
+  await card.getByRole("button", { name: "Previous step" }).click();
   await card.getByText("Arcs fitted.").waitFor();
   await page.keyboard.press("Escape");
   await card.waitFor({ state: "hidden" });
@@ -122,7 +122,7 @@ studio.scene("ants and pheromone can be left out of the picture", {}, async (pag
   await slider(page).fill("3");
   await nextFrame(page);
   const [ground, ants] = [await inkOf(page, "base"), await inkOf(page, "over")];
-  await page.getByLabel("What is drawn").click();
+  await page.getByLabel("Layers").click();
   await page.getByLabel("Pheromone").uncheck();
   await nextFrame(page);
   assert.notEqual(await inkOf(page, "base"), ground);

@@ -1,10 +1,10 @@
-/** What the user can do, and what follows from what the server says. */
+/** The actions of the user, and the handling of the server's messages. */
 
 import { rounded } from "./cells";
 import { vehicleChoice } from "./choices";
 import type { Connection } from "./connection";
 import { Driving } from "./driving";
-import { Keeping } from "./keeping";
+import { MapKeeper } from "./map_keeper";
 import { defaultConfig, encode, type Scene } from "./link";
 import { Opening } from "./opening";
 import { Planning, type Wish } from "./planning";
@@ -39,7 +39,7 @@ export class Actions {
   private readonly driving: Driving;
   private readonly strokes: Strokes;
   private readonly opening: Opening;
-  private readonly keeping: Keeping;
+  private readonly mapKeeper: MapKeeper;
   /** The request before an end was taken hold of. */
   private requestBefore: Request | null = null;
   private isVehicleAwaited = false;
@@ -53,7 +53,7 @@ export class Actions {
     this.driving = new Driving(store, connection);
     this.strokes = new Strokes(store, connection);
     this.opening = new Opening(store, connection, this.strokes);
-    this.keeping = new Keeping(connection);
+    this.mapKeeper = new MapKeeper(connection);
     expose(store);
   }
 
@@ -95,7 +95,7 @@ export class Actions {
         saveFile(this.fileStem(message.slot), message.format, payload);
         break;
       case "kept":
-        this.keeping.came(message.hash);
+        this.mapKeeper.resolve(message.hash);
         break;
       case "error":
         this.errorCame(message);
@@ -108,7 +108,7 @@ export class Actions {
     this.store.set({ isConnected: isOpen });
     for (const slot of SLOTS) this.planning.forget(slot);
     this.isVehicleAwaited = false;
-    if (!isOpen) this.keeping.refuse("the line to the server broke");
+    if (!isOpen) this.mapKeeper.reject("the connection to the server was lost");
     else this.opening.reopen();
   }
 
@@ -190,32 +190,32 @@ export class Actions {
   /** Ends a stroke. */
   endStroke(): void {
     const atMs = performance.now();
-    const deed = this.strokes.end();
-    if (deed === null) return;
-    this.past.push(deed);
+    const edit = this.strokes.end();
+    if (edit === null) return;
+    this.past.push(edit);
     this.planAll("settle", atMs);
   }
 
   /** Takes back the stroke under way, as if it had never been. */
   dropStroke(): void {
-    const deed = this.strokes.end();
-    if (deed === null) return;
-    this.strokes.put(deed.cells, deed.before);
+    const edit = this.strokes.end();
+    if (edit === null) return;
+    this.strokes.put(edit.cells, edit.before);
     this.planAll("settle", performance.now());
   }
 
   undo(): void {
-    const deed = this.past.undo();
-    if (deed?.kind === "stroke") this.strokes.put(deed.cells, deed.before);
-    if (deed?.kind === "request") this.store.set({ request: deed.before });
-    if (deed !== null) this.planAll("settle", performance.now());
+    const edit = this.past.undo();
+    if (edit?.kind === "stroke") this.strokes.put(edit.cells, edit.before);
+    if (edit?.kind === "request") this.store.set({ request: edit.before });
+    if (edit !== null) this.planAll("settle", performance.now());
   }
 
   redo(): void {
-    const deed = this.past.redo();
-    if (deed?.kind === "stroke") this.strokes.put(deed.cells, deed.after);
-    if (deed?.kind === "request") this.store.set({ request: deed.after });
-    if (deed !== null) this.planAll("settle", performance.now());
+    const edit = this.past.redo();
+    if (edit?.kind === "stroke") this.strokes.put(edit.cells, edit.after);
+    if (edit?.kind === "request") this.store.set({ request: edit.after });
+    if (edit !== null) this.planAll("settle", performance.now());
   }
 
   // --- Planning ------------------------------------------------------------------------------
@@ -286,7 +286,7 @@ export class Actions {
       throw new Error("there is no map yet");
     const sides = slots.b === null ? [slots.a] : [slots.a, slots.b];
     const scene: Scene = {
-      map: map.isEdited ? { hash: await this.keeping.keep(map) } : this.opening.choice,
+      map: map.isEdited ? { hash: await this.mapKeeper.keep(map) } : this.opening.choice,
       vehicle: vehicleChoice(vehicle),
       request,
       slots: sides.map(({ config, seed }) => ({ config, seed })),
@@ -372,7 +372,7 @@ export class Actions {
     this.store.set({ error: message });
     if (about === "vehicle") this.isVehicleAwaited = false;
     if (about === "drive") this.driving.failed();
-    if (about === "map") this.keeping.refuse(message);
+    if (about === "map") this.mapKeeper.reject(message);
   }
 
   private fileStem(slot: Slot): string {
@@ -381,7 +381,7 @@ export class Actions {
   }
 }
 
-/** Whether nothing should move by itself. */
+/** Whether the user prefers reduced motion. */
 function isCalm(): boolean {
   return matchMedia("(prefers-reduced-motion: reduce)").matches;
 }

@@ -78,7 +78,7 @@ export function noteChange(map: MapState, regions: readonly Region[]): void {
   changes.set(map.values, list);
 }
 
-/** What has changed since a version; null where that is no longer known. */
+/** The changes since a version; null if they are no longer known. */
 export function changesSince(map: MapState, version: number): Region[] | null {
   const list = changes.get(map.values) ?? [];
   const oldest = list[0]?.version ?? Infinity;
@@ -88,7 +88,7 @@ export function changesSince(map: MapState, version: number): Region[] | null {
   return list.filter((change) => change.version > version).map((change) => change.region);
 }
 
-/** A pose rounded to a tenth of a millimetre and of a milliradian: links and commands stay short. */
+/** A pose rounded to a tenth of a millimeter and of a milliradian: links and commands stay short. */
 export function rounded([x, y, heading]: Pose): Pose {
   const round = (value: number) => Math.round(value * 1e4) / 1e4;
   return [round(x), round(y), round(Math.atan2(Math.sin(heading), Math.cos(heading)))];

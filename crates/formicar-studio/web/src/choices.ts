@@ -1,4 +1,4 @@
-/** What says again which vehicle it is. */
+/** The choice of a vehicle that the server was last given. */
 
 import type { VehicleChoice, VehicleMessage } from "./protocol";
 

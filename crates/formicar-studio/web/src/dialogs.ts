@@ -97,9 +97,9 @@ function askResolution(file: File, open: (resolutionM: number) => void): void {
     h(
       "p",
       { class: "about" },
-      "The file does not say how large a cell is. A ROS YAML dropped together with its image does.",
+      "The file does not hold its cell size. A ROS YAML, dropped together with its image, does.",
     ),
-    row("Side of a cell", input.element, "m"),
+    row("Cell size", input.element, "m"),
     h(
       "div",
       { class: "buttons" },

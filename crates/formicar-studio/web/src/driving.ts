@@ -44,7 +44,7 @@ export class Driving {
     return { ...request, start };
   }
 
-  /** Whether a plan was asked for on the way. */
+  /** Whether a plan was ordered during the drive. */
   isOnTheWay(request: Request): boolean {
     return this.departures.has(request.start);
   }

@@ -11,7 +11,7 @@ export function fixed(value: number | null | undefined, digits: number): string 
 }
 
 /** A length, as fine as its size calls for. */
-export function metres(value: number | null | undefined): string {
+export function meters(value: number | null | undefined): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return DASH;
   const size = Math.abs(value);
   const digits = size < 0.1 ? 3 : size < 10 ? 2 : size < 1000 ? 1 : 0;
@@ -42,7 +42,7 @@ export function count(value: number): string {
   return String(value).replace(/\B(?=(\d{3})+$)/g, "\u2009");
 }
 
-/** How many of what. */
+/** A number with its noun. */
 export function plural(n: number, one: string, many = `${one}s`): string {
   return `${count(n)} ${n === 1 ? one : many}`;
 }

@@ -11,7 +11,7 @@ export interface Scene {
   shown: Slot;
 }
 
-/** What stands in the link, in few letters: of a configuration only what differs. */
+/** The content of a link, in short keys; of a configuration only the differences. */
 interface Packed {
   m: MapChoice;
   v: VehicleChoice;
@@ -64,7 +64,7 @@ export function defaultConfig(catalog: Catalog, planner: string): Config {
   return catalog.planners.find((one) => one.name === planner)?.config ?? { planner };
 }
 
-/** What `value` says otherwise than `base`; undefined where nothing. */
+/** The part of `value` that differs from `base`; undefined if nothing does. */
 function difference(value: unknown, base: unknown): unknown {
   if (!isRecord(value) || !isRecord(base)) {
     return JSON.stringify(value) === JSON.stringify(base) ? undefined : value;

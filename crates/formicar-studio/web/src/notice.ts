@@ -1,4 +1,4 @@
-/** What the page says in passing, and errors, which stay until they are put away or outdated. */
+/** Transient notices, and errors, which stay until they are closed or outdated. */
 
 import { h, setText } from "./dom";
 import { icon } from "./icons";
@@ -12,7 +12,7 @@ const toast = h("div", { class: "toast", role: "status", "aria-live": "polite", 
 let timer = 0;
 let errorTimer = 0;
 
-/** Says something for a few seconds. */
+/** Shows a notice for a few seconds. */
 export function notify(text: string): void {
   setText(toast, text);
   toast.hidden = false;

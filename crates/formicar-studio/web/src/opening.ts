@@ -1,4 +1,4 @@
-/** Opening maps and scenes: what belongs to one is put in place when its map comes. */
+/** Opening maps and scenes: the parts of a scene are set when its map arrives. */
 
 import { vehicleChoice } from "./choices";
 import type { Connection } from "./connection";
@@ -12,10 +12,10 @@ import { filesOf, uploadMap } from "./uploading";
 /** A scene whole, or a map with its own vehicle and one of its requests. */
 export type Wanted = { map: MapChoice; requestId?: string } & Partial<Scene>;
 
-/** A request with a path at once, and ants and hybrid A* that go on looking: there is something to see. */
+/** The first scene: a path at once, then ants and hybrid A* that go on searching. */
 const FIRST: Wanted = { map: { builtin: "neighborhood" }, requestId: "into-alley" };
 const FIRST_PLANNER = "formicar";
-/** Planners that drive, and what walks over cells where a point is to be planned for. */
+/** Planners for cars, and the one for points, which moves over cells. */
 const DRIVING_PLANNERS = ["formicar", "hybrid-astar"];
 const WALKING_PLANNER = "ant-system";
 /** The brush begins at this share of the map's width, and not below a cell. */
@@ -26,9 +26,9 @@ export class Opening {
   /** Why what was wanted first could not be opened. */
   private why: string | null = null;
   private current: MapChoice = FIRST.map;
-  /** Whether the map that is here is opened anew, and whether the server got it from the page. */
+  /** Whether the current map is opened again, and whether the page sent it to the server. */
   private reopening: "asked" | "restored" | null = null;
-  /** What a point cannot be planned with, kept for the next car. */
+  /** The planner that cannot plan for a point, kept for the next car. */
   private drivingConfig: Config | null = null;
 
   constructor(
@@ -37,12 +37,12 @@ export class Opening {
     private readonly strokes: Strokes,
   ) {}
 
-  /** Whether a map is awaited. */
+  /** Whether a map is expected. */
   get isAwaited(): boolean {
     return this.wanted !== null || this.reopening !== null;
   }
 
-  /** What opens the map that is open. */
+  /** The choice that opens the current map. */
   get choice(): MapChoice {
     return this.current;
   }

@@ -1,4 +1,4 @@
-/** How long each frame of a run is shown: at a steady rate, however fast the run was. */
+/** Display times of the frames of a run: a steady rate, however fast the run was. */
 
 import type { Frame } from "./store";
 
@@ -24,7 +24,7 @@ const LIVE_COLONY: Budget = { searchMs: 6000, improvementMs: 1000 };
 /** A run that somebody plays. */
 const PLAYED: Budget = { searchMs: 9000, improvementMs: 9000 };
 
-/** How long a frame is shown, milliseconds. */
+/** Display time of a frame, milliseconds. */
 export function durationMs(frames: readonly Frame[], index: number, isLive: boolean): number {
   const frame = frames[index];
   if (frame === undefined) return 0;

@@ -2,7 +2,7 @@
 
 import type { Connection } from "./connection";
 import type { AnswerMessage, ImprovedFrame, Request, Slot } from "./protocol";
-import { Reel } from "./reel";
+import { FrameBuffer } from "./frame_buffer";
 import { stats } from "./stats";
 import type { Frame, PlanState, SlotState, Store } from "./store";
 
@@ -29,8 +29,8 @@ interface Line {
 interface Flight {
   plan: PlanState;
   wish: Wish;
-  reel: Reel;
-  /** Whether a path or the answer has come. */
+  buffer: FrameBuffer;
+  /** Whether a path or the answer has arrived. */
   hasNews: boolean;
   isShown: boolean;
 }
@@ -129,8 +129,8 @@ export class Planning {
     });
     if (!isSent) return;
     const plan = newPlan(this.nPlans, wish);
-    const reel = new Reel(plan.frames);
-    const flight: Flight = { plan, wish, reel, hasNews: false, isShown: false };
+    const buffer = new FrameBuffer(plan.frames);
+    const flight: Flight = { plan, wish, buffer, hasNews: false, isShown: false };
     line.flight = flight;
     if (wish.manner !== "replay") stats.asked(plan.plan, wish.atMs);
     if (wish.manner === "replay") this.show(slot, flight);
@@ -164,7 +164,7 @@ export class Planning {
     const frames = flight.plan.frames;
     const isWatched = store.state.slots[store.state.shown]?.plan === flight.plan;
     const shownFrame = isWatched ? frames[store.state.frame ?? -1] : undefined;
-    flight.reel.push(frame);
+    flight.buffer.push(frame);
     if (shownFrame === undefined || frames[store.state.frame ?? -1] === shownFrame) return;
     // The frames were thinned: playback stays with the one it shows, or near it.
     const at = frames.indexOf(shownFrame);

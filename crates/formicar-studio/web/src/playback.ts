@@ -3,14 +3,14 @@
 import "./playback.css";
 
 import { h, setText } from "./dom";
-import { count, fixed, metres, plural } from "./format";
+import { count, fixed, meters, plural } from "./format";
 import { icon } from "./icons";
 import { isTyping } from "./map/keys";
 import { durationMs } from "./pace";
 import type { IterationRecord } from "./protocol";
 import type { Frame, PlanState, State, Store } from "./store";
 
-/** What the space bar presses. */
+/** The button that the space bar presses. */
 const PRESSED = "button, a, summary, [role=tab], input[type=checkbox], input[type=radio]";
 const SPEEDS = [0.25, 0.5, 1, 2, 4] as const;
 /** A longer pause between two looks at the clock: the page was hidden. */
@@ -24,13 +24,13 @@ export class Playback {
     type: "range",
     min: 0,
     step: 1,
-    "aria-label": "Moment of the run",
+    "aria-label": "Position in the run",
   });
   private readonly marks = h("div", { class: "player-marks", "aria-hidden": true });
   private readonly words = h("p", { class: "player-words" });
   private readonly speed = h(
     "select",
-    { "aria-label": "Speed of playback" },
+    { "aria-label": "Playback speed" },
     ...SPEEDS.map((speed) => h("option", { value: speed }, `${speed}\u00d7`)),
   );
   /** Whether the run began to play by itself. */
@@ -195,7 +195,7 @@ function setPlaying(button: HTMLButtonElement, isPlaying: boolean): void {
   button.replaceChildren(icon(isPlaying ? "pause" : "play"));
 }
 
-/** What stands at a frame, in words. */
+/** A description of a frame. */
 function wordsOf(plan: PlanState | null, index: number | null): string {
   if (plan === null) return "No run yet";
   const { frames, end } = plan;
@@ -218,7 +218,7 @@ function wordsOf(plan: PlanState | null, index: number | null): string {
     case "expanded":
       return `hybrid A* after ${plural(frame.n_steps, "step")}`;
     case "improved":
-      return `certified path of ${metres(frame.length_m)} after ${fixed(frame.at_ms, 1)} ms`;
+      return `certified path of ${meters(frame.length_m)} after ${fixed(frame.at_ms, 1)} ms`;
   }
 }
 

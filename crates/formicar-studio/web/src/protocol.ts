@@ -1,6 +1,6 @@
-/** What the page and the server say to each other; the server's side is `src/protocol.rs`.
+/** The messages between page and server; the server's side is `src/protocol.rs`.
  *
- * Text messages are JSON, told apart by `type`. A binary message is a header of the same kind
+ * Text messages are JSON, distinguished by `type`. A binary message is a header of the same kind
  * with a payload behind it: the header's length in bytes (u32, little endian), the header as
  * JSON, the payload. */
 
@@ -35,10 +35,10 @@ export interface Request {
 /** Parameters of a vehicle, as in vehicle files. */
 export type VehicleParameters = Record<string, unknown>;
 
-/** Which vehicle: a preset, or parameters of one's own. */
+/** The choice of a vehicle: a preset, or parameters. */
 export type VehicleChoice = { preset: string } | { parameters: VehicleParameters };
 
-/** Which map: a built-in by name, or an uploaded or edited one by the hash of its content. */
+/** The choice of a map: a built-in by name, or an uploaded or edited one by its hash. */
 export type MapChoice = { builtin: string } | { hash: string };
 
 /** A rectangle of cells, its corner lowest and leftmost. */
@@ -49,10 +49,10 @@ export interface Region {
   n_rows: number;
 }
 
-/** Two plans stand side by side; `a` is the one that is always there. */
+/** The slots of two plans side by side; `a` is always there. */
 export type Slot = "a" | "b";
 
-/** Which law turns the wheels when a path is driven. */
+/** The controller that steers when a path is driven. */
 export type DriveLaw = "open-loop" | "pure-pursuit" | "stanley";
 
 // --- From the page ---------------------------------------------------------------------------
@@ -95,7 +95,7 @@ export interface MapMessage {
   type: "map";
   /** Built-in name, or the name of the uploaded file. */
   name: string;
-  /** What opens it again; null where a built-in name does. */
+  /** The hash that opens it again; null for a built-in map. */
   hash: string | null;
   n_cols: number;
   n_rows: number;
@@ -113,7 +113,7 @@ export interface VehicleMessage {
   /** Preset name, or "own". */
   name: string;
   parameters: VehicleParameters;
-  /** Corners about the center of the rear axle, x forward, metres. */
+  /** Corners about the center of the rear axle, x forward, meters. */
   footprint: [number, number][];
   /** `car`, or `point`: holonomic, without measures. */
   motion: "car" | "point";
@@ -170,7 +170,7 @@ export interface DriveFrame {
   plan: number;
   generation: number;
   n_steps: number;
-  /** Ways of ants as polylines x, y, x, y ..., metres. */
+  /** Ways of ants as polylines x, y, x, y ..., meters. */
   arrived: number[][];
   died: number[][];
 }
@@ -232,7 +232,7 @@ export interface Answer {
   provenance: Record<string, unknown>;
 }
 
-/** What a planner computed on the way, to be told step by step; what it does not compute is
+/** Intermediate results of a planner, shown step by step; results that it does not compute are
  * left out. Cells are col, row; two numbers each. */
 export interface Stages {
   expanded?: number[];
@@ -268,7 +268,7 @@ export interface DrivenMessage {
   status: string;
   summary: Record<string, number>;
   min_clearance_m: number | null;
-  /** Where the body first meets an obstacle. */
+  /** The first contact of the body with an obstacle. */
   contact: { x: number; y: number; t_s: number } | null;
   trace: {
     t_s: number;
@@ -301,7 +301,7 @@ export type ServerMessage =
   | ExpandedFrame
   | ImprovedFrame
   | AnswerMessage
-  /** A newer plan in the slot was asked for before this one began. */
+  /** A newer plan of the slot was ordered before this one began. */
   | { type: "dropped"; plan: number; slot: Slot }
   | DrivenMessage
   | PictureMessage

@@ -23,7 +23,7 @@ import { Playback } from "./playback";
 import type { Slot } from "./protocol";
 import { showStatus } from "./status";
 import type { Store } from "./store";
-import { Telling } from "./telling";
+import { Stepper } from "./stepper";
 import { chooseTheme, onThemeChange, themeChoice, type ThemeChoice } from "./theme";
 
 const NEXT_THEME: Record<ThemeChoice, ThemeChoice> = { auto: "light", light: "dark", dark: "auto" };
@@ -124,13 +124,13 @@ function logo(): HTMLElement {
   return h("span", { class: "logo", "aria-hidden": "true" });
 }
 
-/** Maps with their tools, the telling and playback. */
+/** Maps with their tools, the stepper and playback. */
 class Stage {
   readonly element: HTMLElement;
   readonly views: MapView[] = [];
   private readonly maps = h("div", { class: "maps" });
   private readonly tools = h("div", { class: "toolbar" });
-  private readonly telling = h("div", { class: "telling" });
+  private readonly stepper = h("div", { class: "stepper-host" });
   private readonly playback = h("div", { class: "playback" });
   private second: HTMLElement | null = null;
 
@@ -142,7 +142,7 @@ class Stage {
       "main",
       { class: "stage", "aria-label": "Map" },
       h("div", { class: "map-area" }, this.maps, this.tools),
-      this.telling,
+      this.stepper,
       this.playback,
     );
   }
@@ -153,7 +153,7 @@ class Stage {
     this.add("a");
     toolbar(this.tools, store, actions, () => this.views);
     new Playback(this.playback, store);
-    new Telling(this.telling, store);
+    new Stepper(this.stepper, store);
     store.watch(["slots"], ({ slots }) => {
       if (slots.b && this.second === null) this.second = this.add("b");
       const isPair = slots.b !== null;

@@ -1,4 +1,4 @@
-/** What several panels read from the state. */
+/** Selectors of the state that several panels share. */
 
 import type { Answer, Config, PoseRecord, Slot } from "./protocol";
 import type { PlanState, SlotState, State } from "./store";

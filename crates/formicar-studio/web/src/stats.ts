@@ -1,4 +1,4 @@
-/** What the page measures of itself, for tests: `window.formicar.stats`. */
+/** Measurements of the page itself, for tests: `window.formicar.stats`. */
 
 import type { Store } from "./store";
 

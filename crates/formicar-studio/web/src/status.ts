@@ -1,7 +1,7 @@
 /** The one line that is always there: certified or why not, length, clearance, time. */
 
 import { h, setText } from "./dom";
-import { metres, seconds } from "./format";
+import { meters, seconds } from "./format";
 import { icon, type IconName } from "./icons";
 import { slotsOf } from "./state";
 import type { PlanState, SlotState, State, Store } from "./store";
@@ -15,7 +15,7 @@ export interface Verdict {
   parts: string[];
 }
 
-/** What screen readers hear comes when nothing has changed for so long. */
+/** Screen readers hear a change after this long without another. */
 const CALM_MS = 700;
 
 const WORDS: Record<Answer["status"], string> = {
@@ -115,13 +115,13 @@ function verdict(state: Readonly<State>, slot: SlotState): Verdict {
 function underWay(plan: PlanState): Verdict {
   const { improved } = plan;
   if (improved === null) return { kind: "busy", word: "Searching", parts: [] };
-  const parts = [metres(improved.length_m), `after ${seconds(improved.at_ms / 1000)}`];
+  const parts = [meters(improved.length_m), `after ${seconds(improved.at_ms / 1000)}`];
   return { kind: "busy", word: "Improving", parts };
 }
 
 function certified(answer: Answer): Verdict {
   const { metrics, timing } = answer;
-  const parts = [metres(metrics?.length_m), `clearance ${metres(metrics?.min_clearance_m)}`];
+  const parts = [meters(metrics?.length_m), `clearance ${meters(metrics?.min_clearance_m)}`];
   const cusps = metrics?.n_cusps ?? 0;
   if (cusps > 0) parts.push(`${cusps} gear ${cusps === 1 ? "change" : "changes"}`);
   const first = timing.first_feasible_s;

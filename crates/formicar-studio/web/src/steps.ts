@@ -1,6 +1,6 @@
-/** The steps in which a plan can be told, as the papers tell it: one sentence each. */
+/** The steps of a plan, as the papers present them, with a sentence each. */
 
-import { metres, plural } from "./format";
+import { meters, plural } from "./format";
 import type { MapState, PlanState } from "./store";
 
 export type StepName = "map" | "expanded" | "closed" | "cells" | "nodes" | "arcs" | "judged";
@@ -11,7 +11,7 @@ export interface Step {
   sentence: string;
 }
 
-/** What of a plan can be told; empty until it has an answer. */
+/** The steps of a plan; empty until it has an answer. */
 export function stepsOf(plan: PlanState | null, map: MapState | null): Step[] {
   const end = plan?.end;
   if (!end || map === null) return [];
@@ -24,32 +24,32 @@ export function stepsOf(plan: PlanState | null, map: MapState | null): Step[] {
     },
     step("expanded", "Obstacles expanded", stages.expanded, (n) =>
       n === 0
-        ? "Obstacles need not grow here."
-        : `Obstacles grow by ${plural(n, "cell")}, so that the vehicle may be planned for as a point.`,
+        ? "No obstacle needs to grow here."
+        : `Obstacles grow by ${plural(n, "cell")}, so that the vehicle can be planned for as a point.`,
     ),
     step("closed", "U-shapes closed", stages.closed, (n) =>
       n === 0
-        ? "There is no U-shape in which ants would get lost."
-        : `${plural(n, "cell")} of dead ends are closed: no ant gets lost in a U-shape.`,
+        ? "The map has no U-shape that would trap ants."
+        : `${plural(n, "cell")} of dead ends are closed, so that no U-shape traps ants.`,
     ),
     step(
       "cells",
-      "The way over cells",
+      "The path over cells",
       stages.grid_path,
-      (n) => `The best ant's way goes over ${plural(n, "cell")}.`,
+      (n) => `The path of the best ant has ${plural(n, "cell")}.`,
     ),
     step(
       "nodes",
       "Nodes removed",
       stages.nodes,
-      (n) => `${plural(n, "node")} remain where straight lines between them stay free.`,
+      (n) => `${plural(n, "node")} remain; the straight lines between them are free.`,
     ),
     arcs(plan),
     judged(plan),
   ];
-  const told = steps.filter((one) => one !== null);
-  // A map and a verdict alone are no story.
-  return answer.path === null && told.length < 3 ? [] : told;
+  const known = steps.filter((one) => one !== null);
+  // A map and a verdict alone need no steps.
+  return answer.path === null && known.length < 3 ? [] : known;
 }
 
 function step(
@@ -68,7 +68,7 @@ function arcs(plan: PlanState): Step | null {
   const n = answer.path.segments.length;
   const cusps = answer.metrics?.n_cusps ?? 0;
   const gears = cusps > 0 ? `, with ${plural(cusps, "change")} of gear` : "";
-  const sentence = `Arcs and straight lines are fitted that the vehicle can drive: ${plural(n, "segment")}${gears}.`;
+  const sentence = `Arcs and straight lines that the vehicle can drive are fitted: ${plural(n, "segment")}${gears}.`;
   return { name: "arcs", title: "Arcs fitted", sentence };
 }
 
@@ -79,8 +79,8 @@ function judged(plan: PlanState): Step | null {
   if (answer.certificate?.valid === true && answer.metrics) {
     const { length_m, min_clearance_m } = answer.metrics;
     const sentence =
-      `The judge drives the footprint along the path and certifies it: ${metres(length_m)}, ` +
-      `${metres(min_clearance_m)} clear at the tightest place.`;
+      `The judge drives the footprint along the path and certifies it: ${meters(length_m)}, ` +
+      `clearance ${meters(min_clearance_m)}.`;
     return { name: "judged", title: "Judged", sentence };
   }
   return {

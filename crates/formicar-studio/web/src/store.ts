@@ -1,4 +1,4 @@
-/** What the page knows, in one place; whoever shows it is told of changes. */
+/** The state of the page in one place; views are notified of changes. */
 
 import type {
   AnswerMessage,
@@ -19,13 +19,13 @@ import type {
 /** A map with its values, row by row, lowest row first. */
 export interface MapState extends MapMessage {
   values: Int8Array;
-  /** Whether it was painted on since it was opened. */
+  /** Whether it was edited since it was opened. */
   isEdited: boolean;
   /** Grows with every change of the values. */
   version: number;
 }
 
-/** What can be played back of a run, in the order in which it came. */
+/** The frames of a run for playback, in order of arrival. */
 export type Frame =
   | (IterationFrame & { pheromone: Uint8Array })
   | GenerationFrame
@@ -56,7 +56,7 @@ export interface SlotState {
   isHeld?: boolean;
 }
 
-/** What a finger or the mouse does to the map. */
+/** The tools for the map. */
 export type Tool = "move" | "paint" | "erase";
 
 export interface State {
@@ -71,22 +71,22 @@ export interface State {
   shown: Slot;
   tool: Tool;
   brushM: number;
-  /** Where playback stands, as an index into the frames of the shown plan; null: the end. */
+  /** The position of playback, as an index into the frames of the shown plan; null: the end. */
   frame: number | null;
-  /** How far into that frame playback is, 0 to 1: ants walk meanwhile. */
+  /** The progress of playback within that frame, 0 to 1: ants walk meanwhile. */
   frameShare: number;
   isPlaying: boolean;
-  /** Which step of the papers' telling is shown; null: none. */
+  /** The step that is shown; null: none. */
   step: number | null;
-  /** Arc length that the charts or the map point at, metres along the shown path. */
+  /** Arc length that the charts or the map point at, meters along the shown path. */
   hoverM: number | null;
   /** Time of the drive that is shown, seconds; null: no drive. */
   driveS: number | null;
-  /** What is drawn over the map. */
+  /** The layers drawn over the map. */
   layers: { swept: boolean; pheromone: boolean; ants: boolean; clearance: boolean };
-  /** Whether something can be undone, and done again. */
+  /** Whether there is an edit to undo or to redo. */
   past: { canUndo: boolean; canRedo: boolean };
-  /** What went wrong last, for all to see. */
+  /** The last error, which the page shows. */
   error: string | null;
 }
 

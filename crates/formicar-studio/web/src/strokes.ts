@@ -3,9 +3,9 @@
 import { noteChange, regionsOf, valuesIn } from "./cells";
 import type { Connection } from "./connection";
 import type { MapState, Store } from "./store";
-import type { Deed } from "./undo";
+import type { Edit } from "./undo";
 
-type StrokeDeed = Extract<Deed, { kind: "stroke" }>;
+type StrokeEdit = Extract<Edit, { kind: "stroke" }>;
 
 export class Strokes {
   /** Values before the stroke under way, by cell. */
@@ -34,7 +34,7 @@ export class Strokes {
   }
 
   /** Ends the stroke; null where it has changed nothing. */
-  end(): StrokeDeed | null {
+  end(): StrokeEdit | null {
     const { map } = this.store.state;
     const { before } = this;
     this.before = new Map();

@@ -1,10 +1,10 @@
-/** Where the vehicle is at a time of a drive. */
+/** The pose of the vehicle at a time of a drive. */
 
 import type { DrivenMessage, Pose } from "./protocol";
 
 export type TracePoint = DrivenMessage["trace"][number];
 
-/** How long a drive lasts, seconds. */
+/** The duration of a drive, seconds. */
 export function durationS(driven: DrivenMessage): number {
   return driven.trace.at(-1)?.t_s ?? 0;
 }

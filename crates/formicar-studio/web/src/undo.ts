@@ -1,59 +1,59 @@
-/** What was done, to be undone and done again. */
+/** The history of edits, for undo and redo. */
 
 import type { Request } from "./protocol";
 
 /** A change of cells, or of the request. */
-export type Deed =
+export type Edit =
   | { kind: "stroke"; cells: Int32Array; before: Int8Array; after: Int8Array }
   | { kind: "request"; before: Request; after: Request };
 
-const MAX_DEEDS = 200;
-/** All strokes together hold at most so many cells. */
+const MAX_EDITS = 200;
+/** The most cells of all strokes together. */
 const MAX_CELLS = 1 << 24;
 
 export class Past {
-  private done: Deed[] = [];
-  private undone: Deed[] = [];
+  private done: Edit[] = [];
+  private undone: Edit[] = [];
 
-  /** `changed` hears of every change. */
+  /** `changed` is called after every change. */
   constructor(private readonly changed: (past: { canUndo: boolean; canRedo: boolean }) => void) {}
 
-  /** Keeps what was done; what was undone before it is gone. */
-  push(deed: Deed): void {
-    this.done.push(deed);
+  /** Adds an edit; undone edits are dropped. */
+  push(edit: Edit): void {
+    this.done.push(edit);
     this.undone = [];
-    while (this.done.length > MAX_DEEDS || nCells(this.done) > MAX_CELLS) this.done.shift();
-    this.tell();
+    while (this.done.length > MAX_EDITS || nCells(this.done) > MAX_CELLS) this.done.shift();
+    this.notify();
   }
 
-  /** The deed to take back, or null. */
-  undo(): Deed | null {
+  /** The edit to undo, or null. */
+  undo(): Edit | null {
     return this.shift(this.done, this.undone);
   }
 
-  /** The deed to do again, or null. */
-  redo(): Deed | null {
+  /** The edit to redo, or null. */
+  redo(): Edit | null {
     return this.shift(this.undone, this.done);
   }
 
   clear(): void {
     this.done = [];
     this.undone = [];
-    this.tell();
+    this.notify();
   }
 
-  private shift(from: Deed[], to: Deed[]): Deed | null {
-    const deed = from.pop() ?? null;
-    if (deed !== null) to.push(deed);
-    this.tell();
-    return deed;
+  private shift(from: Edit[], to: Edit[]): Edit | null {
+    const edit = from.pop() ?? null;
+    if (edit !== null) to.push(edit);
+    this.notify();
+    return edit;
   }
 
-  private tell(): void {
+  private notify(): void {
     this.changed({ canUndo: this.done.length > 0, canRedo: this.undone.length > 0 });
   }
 }
 
-function nCells(deeds: readonly Deed[]): number {
-  return deeds.reduce((n, deed) => n + (deed.kind === "stroke" ? deed.cells.length : 0), 0);
+function nCells(edits: readonly Edit[]): number {
+  return edits.reduce((n, edit) => n + (edit.kind === "stroke" ? edit.cells.length : 0), 0);
 }

@@ -9,7 +9,7 @@ export function withToken(url: string): string {
   return `${url}${url.includes("?") ? "&" : "?"}${PARAMETER}=${encodeURIComponent(token)}`;
 }
 
-/** Where the line to the server is opened. */
+/** The address of the WebSocket. */
 export function socketUrl(): string {
   const url = new URL(withToken("ws"), location.href);
   url.protocol = url.protocol === "https:" ? "wss:" : "ws:";

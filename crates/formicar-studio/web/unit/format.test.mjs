@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { count, degrees, fixed, metres, plain, plural, seconds } from "../src/format.ts";
+import { count, degrees, fixed, meters, plain, plural, seconds } from "../src/format.ts";
 
 test("minus signs are real, and zero has none", () => {
   assert.equal(fixed(-1.25, 1), "\u22121.3");
@@ -11,14 +11,14 @@ test("minus signs are real, and zero has none", () => {
 });
 
 test("a number that is absent or not finite is a dash", () => {
-  for (const write of [(value) => fixed(value, 1), metres, seconds]) {
+  for (const write of [(value) => fixed(value, 1), meters, seconds]) {
     for (const value of [null, undefined, Number.NaN, Infinity]) assert.equal(write(value), "\u2013");
   }
   assert.equal(degrees(null), "\u2013");
 });
 
 test("lengths and times are as fine as their size", () => {
-  assert.deepEqual([0.0123, 1.234, 12.34, 1234.5].map(metres), ["0.012 m", "1.23 m", "12.3 m", "1235 m"]);
+  assert.deepEqual([0.0123, 1.234, 12.34, 1234.5].map(meters), ["0.012 m", "1.23 m", "12.3 m", "1235 m"]);
   assert.deepEqual(
     [2e-6, 0.0012, 0.25, 12.345, 250].map(seconds),
     ["2 \u00b5s", "1.2 ms", "250 ms", "12.35 s", "250 s"],

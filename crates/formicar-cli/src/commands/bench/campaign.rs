@@ -144,7 +144,7 @@ fn contender(entry: &PlannerEntry, text: &Text, folder: &Path) -> Result<Contend
     for set in &entry.set {
         let key = set.get_ref().split('=').next().unwrap_or_default().trim();
         tuned.retain(|tuned| tuned != key);
-        let merged = settings::merge((config, ""), &[set.get_ref().clone()], None);
+        let merged = settings::merge(config, "", &[set.get_ref().clone()], None);
         config = merged.map_err(|e| text.mistake(Some(set.span()), plain(&format!("{e:#}"))))?;
     }
     Ok(Contender {
@@ -191,7 +191,7 @@ fn config(config: Option<&Spanned<Value>>, text: &Text, folder: &Path) -> Result
 /// The parameters with the planner's name; what is wrong with one is told at its line.
 fn checked(base: &Table, sets: &[String], entry: &PlannerEntry, text: &Text) -> Result<Table> {
     let keys = settings::keys_of(base, "");
-    let merged = settings::merge((base.clone(), "config"), sets, Some(entry.planner));
+    let merged = settings::merge(base.clone(), "config", sets, Some(entry.planner));
     merged.map_err(|error| {
         let what = format!("{error:#}");
         let Some(config) = &entry.config else {

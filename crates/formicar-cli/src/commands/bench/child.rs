@@ -1,9 +1,9 @@
 //! The process of one run: plans, measures itself, and prints its row.
 
 use super::{measure, place, rival};
-use crate::commands::plan::{Answered, Session};
 use crate::failure::{Ending, Failure};
-use crate::{ground, settings};
+use crate::session::{Answered, Session};
+use crate::{scene, settings};
 use anyhow::{Context, Result};
 use formicar::map::format::write_atomically;
 use formicar::metrics::CompatibleMetrics;
@@ -34,9 +34,10 @@ pub(crate) fn run_one(job: &str, out: &mut impl Write) -> Result<Ending, Failure
 /// A run of a planner of ours.
 fn ours(job: &Job, begun: Instant) -> Result<Told> {
     let contender = &job.contender;
-    let config = (contender.config.clone(), contender.name.as_str());
-    let config = settings::typed(&settings::merge(config, &[], Some(contender.planner))?)?;
-    let ground = ground::load(&place::ground_args(&job.task, job.vehicle_source()))?;
+    let table = contender.config.clone();
+    let table = settings::merge(table, &contender.name, &[], Some(contender.planner))?;
+    let config = settings::typed(&table)?;
+    let ground = scene::load(&place::ground_args(&job.task, job.vehicle_source()))?;
     let request = place::request(job, &ground)?;
     let mut session = Session::new(ground, config, begun)?;
     let (answered, used, is_same) = ask(&mut session, &request, job);

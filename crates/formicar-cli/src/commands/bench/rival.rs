@@ -1,7 +1,7 @@
 //! Programs of others in a campaign: who they are, and one run of theirs.
 
 use super::{execute, measure, place};
-use crate::ground;
+use crate::scene;
 use anyhow::{Context, Result, bail};
 use formicar::collision::ObstacleMap;
 use formicar::numeric::Seed;
@@ -54,7 +54,7 @@ pub(super) fn config(name: &str, command: &RivalCommand) -> Result<ConfigRecord>
 
 /// One run: the program plans, our judge rules.
 pub(super) fn run_one(job: &Job, command: &RivalCommand) -> Result<Told> {
-    let ground = ground::load(&place::ground_args(&job.task, job.vehicle_source()))?;
+    let ground = scene::load(&place::ground_args(&job.task, job.vehicle_source()))?;
     let obstacles = ObstacleMap::new(&ground.map);
     let on = (&obstacles, &ground.vehicle.vehicle);
     let document = place::request(job, &ground)?;

@@ -2,7 +2,7 @@
 //! before anything is started.
 
 use super::{BenchArgs, place, rival, suite, variant};
-use crate::{ground, settings};
+use crate::{scene, settings};
 use anyhow::{Result, anyhow};
 use formicar::collision::ObstacleMap;
 use formicar::planner::PlannerName;
@@ -118,7 +118,7 @@ pub(super) fn config(contender: &Contender) -> Result<ConfigRecord> {
 struct Grounds {
     of_scenarios: BTreeMap<[String; 2], Ground>,
     /// Hashes of maps that many scenarios share, by vehicle, with their frame.
-    of_maps: BTreeMap<[String; 2], ground::Ground>,
+    of_maps: BTreeMap<[String; 2], scene::Scene>,
 }
 
 impl Grounds {
@@ -131,19 +131,19 @@ impl Grounds {
         let found = if let Place::Cells { map, .. } = &job.task.place {
             let key = [map.display().to_string(), job.vehicle_name().to_owned()];
             let known = self.of_maps.remove(&key);
-            let loaded = known.map_or_else(|| ground::load(&args), Ok)?;
+            let loaded = known.map_or_else(|| scene::load(&args), Ok)?;
             let found = of_ground(&job.task, &loaded);
             self.of_maps.insert(key, loaded);
             found?
         } else {
-            of_ground(&job.task, &ground::load(&args)?)?
+            of_ground(&job.task, &scene::load(&args)?)?
         };
         self.of_scenarios.insert(key, found);
         Ok(found)
     }
 }
 
-fn of_ground(task: &Task, ground: &ground::Ground) -> Result<Ground> {
+fn of_ground(task: &Task, ground: &scene::Scene) -> Result<Ground> {
     Ok(Ground {
         map_hash: ObstacleMap::new(&ground.map).hash(),
         vehicle_hash: ground.vehicle.vehicle.hash(),
@@ -162,7 +162,7 @@ pub(super) fn vehicle(word: &str, folder: &Path) -> Result<Option<VehicleChoice>
     } else {
         word.to_owned()
     };
-    ground::vehicle(&source)?;
+    scene::vehicle(&source)?;
     Ok(Some(VehicleChoice {
         name: word.to_owned(),
         source,

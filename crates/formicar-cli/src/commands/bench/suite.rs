@@ -2,9 +2,9 @@
 //! before anything is started.
 
 use super::place;
-use crate::args::GroundArgs;
-use crate::files::ScenarioFile;
-use crate::ground;
+use crate::scene;
+use crate::scene::ScenarioFile;
+use crate::scene::SceneArgs;
 use anyhow::{Context, Result, anyhow, bail};
 use formicar::map::builtin::{self, BuiltinKind, BuiltinMap};
 use formicar::map::format::{MovingAiScenario, read_movingai_scenarios};
@@ -130,7 +130,7 @@ fn of_file(path: &Path, resolution_m: Option<f64>) -> Result<Vec<Task>> {
     };
     for task in &tasks {
         // A map that cannot be read is found now rather than once per run.
-        ground::find(&place::ground_args(task, None))?;
+        scene::find(&place::ground_args(task, None))?;
     }
     Ok(tasks)
 }
@@ -148,9 +148,9 @@ fn of_movingai(path: &Path, limit: Option<u32>) -> Result<Vec<Task>> {
         path.with_extension("map")
     };
     let source = stem(&map)?;
-    let grid = ground::find(&GroundArgs {
+    let grid = scene::find(&SceneArgs {
         map: Some(map.display().to_string()),
-        ..GroundArgs::default()
+        ..SceneArgs::default()
     })?;
     let (n_cols, n_rows) = (grid.map.frame().n_cols(), grid.map.frame().n_rows());
     if let Some(line) = lines

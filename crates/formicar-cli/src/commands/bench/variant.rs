@@ -48,11 +48,15 @@ pub(super) fn all(args: &BenchArgs) -> Result<Vec<Contender>> {
 }
 
 fn contender(name: &str, planner: PlannerName, sets: &[String]) -> Result<Contender> {
-    let blank = (Table::new(), "the planner's parameters");
     Ok(Contender {
         name: name.to_owned(),
         planner,
-        config: settings::merge(blank, sets, Some(planner))?,
+        config: settings::merge(
+            Table::new(),
+            "the planner's parameters",
+            sets,
+            Some(planner),
+        )?,
         rival: None,
         tuned: Vec::new(),
     })

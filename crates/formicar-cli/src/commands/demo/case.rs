@@ -1,6 +1,6 @@
 //! One run of the demo before it is carried out: plain data.
 
-use crate::ground::{self, Ground};
+use crate::scene::{self, Scene};
 use anyhow::Result;
 use formicar::geometry::{Point2, Pose2};
 use formicar::map::builtin::{BuiltinKind, BuiltinMap};
@@ -14,7 +14,7 @@ const BUDGET_STEPS_NARROW: u64 = 100_000;
 /// Steps of ants are quick: a second too.
 const BUDGET_STEPS_ANTS: u64 = 20_000_000;
 
-/// Where a run stands in the demo.
+/// The chapters of the demo.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Chapter {
     Scenes,
@@ -57,13 +57,13 @@ pub(super) struct Case {
     pub(super) motion: MotionMode,
     /// An area closed for the vehicle.
     pub(super) keep_out: &'static [[f64; 2]],
-    /// Where the map's origin lies instead of (0, 0, 0); start and goal go with it.
+    /// Origin of the map, if not (0, 0, 0); start and goal move with it.
     pub(super) origin: Option<Pose2>,
-    /// What is to be seen.
+    /// What the run shows.
     pub(super) about: &'static str,
-    /// Whether the catalog knows that there is no path.
+    /// Whether the request is known to have no path.
     pub(super) is_impossible: bool,
-    /// Whether it is drawn as PNG too.
+    /// Whether a PNG is written, too.
     pub(super) has_png: bool,
 }
 
@@ -103,7 +103,7 @@ impl Case {
     }
 
     /// Map and vehicle, drawn anew.
-    pub(super) fn ground(&self) -> Result<Ground> {
+    pub(super) fn ground(&self) -> Result<Scene> {
         let grid = self.map.grid();
         let mut map = match self.origin {
             Some(origin) => moved(&grid, origin)?,
@@ -120,7 +120,7 @@ impl Case {
             map.fill_polygon(&corners, OCCUPIED);
             keep_out.push(self.keep_out.to_vec());
         }
-        Ok(Ground {
+        Ok(Scene {
             map,
             record: MapRecord {
                 name: self.map.name.to_owned(),
@@ -128,7 +128,7 @@ impl Case {
                 keep_out,
                 ..MapRecord::default()
             },
-            vehicle: ground::vehicle(self.map.vehicle)?,
+            vehicle: scene::vehicle(self.map.vehicle)?,
             ends: None,
         })
     }
@@ -141,7 +141,7 @@ impl Case {
         }
     }
 
-    /// What is asked.
+    /// The request.
     pub(super) fn request(&self) -> Request {
         let placed = |pose| self.origin.map_or(pose, |origin| origin.compose(pose));
         Request {

@@ -1,4 +1,4 @@
-//! `demo`: what formicar does on its built-in maps, as a table, pictures and a page.
+//! `demo`: the built-in maps planned, as a table, pictures and a page.
 
 mod case;
 mod catalog;
@@ -6,23 +6,32 @@ mod page;
 mod run;
 mod table;
 
-use crate::args::DemoArgs;
 use crate::failure::{Ending, Failure};
 use crate::output::Target;
 use anyhow::{Context, Result, bail};
 use case::Case;
+use clap::{Args, ValueHint};
 use formicar_lab::run::pool;
-use run::Done;
+use run::{Done, RUNS_FOLDER};
 use std::fs;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
+
+/// Flags of `demo`.
+#[derive(Args, Debug)]
+pub(crate) struct DemoArgs {
+    /// Folder of the page; created if needed, and files of an earlier demo are replaced.
+    #[arg(long, value_name = "DIR", default_value = "./formicar-demo", value_hint = ValueHint::DirPath)]
+    out: PathBuf,
+
+    /// Only runs whose name holds this word; may be repeated.
+    #[arg(long, value_name = "WORD", hide = true)]
+    only: Vec<String>,
+}
 
 /// Runs at a time.
 const N_WORKERS: usize = 2;
-
-/// The folder of pictures and answers beside the page.
-const RUNS_FOLDER: &str = "runs";
 
 /// Carries out `demo`.
 pub(crate) fn run(args: &DemoArgs, out: &mut impl Write) -> Result<Ending, Failure> {
@@ -38,7 +47,7 @@ pub(crate) fn run(args: &DemoArgs, out: &mut impl Write) -> Result<Ending, Failu
     })?;
     let total_s = begun.elapsed().as_secs_f64();
     page.write(page::html(&done, total_s).as_bytes())?;
-    table::write_end((&done, total_s), page.path(), out)?;
+    table::write_end(&done, total_s, page.path(), out)?;
     Ok(Ending::Done)
 }
 

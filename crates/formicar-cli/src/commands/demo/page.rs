@@ -1,7 +1,7 @@
 //! The page of the demo: one HTML file that needs no network.
 
-use super::RUNS_FOLDER;
 use super::case::Chapter;
+use super::run::RUNS_FOLDER;
 use super::run::{Done, status};
 use super::table::{Numbers, tally};
 use crate::summary::duration;

@@ -12,6 +12,9 @@ use formicar::progress::AntFrames;
 use formicar::render::{Layout, Picture};
 use std::time::Instant;
 
+/// The folder of pictures and answers beside the page.
+pub(super) const RUNS_FOLDER: &str = "runs";
+
 /// The seed of every run.
 const SEED: Seed = Seed(0);
 
@@ -67,16 +70,14 @@ pub(super) fn run(case: &Case) -> Result<Done<'_>> {
     let answer = context.answer(Some(&request), SEED, &result, timing);
     let outcome = result.with_context(|| case.id())?;
     let drawn = |layout| {
-        let place = (&ground, &**planner.obstacles());
-        let mut picture = picture::of(place, &answer, &outcome, layout);
+        let mut picture = picture::of(&ground, planner.obstacles(), &answer, &outcome, layout);
         picture.title = format!("{}: {}", case.title(), status(&answer));
         picture
     };
     let (picture, phone) = (drawn(Layout::Page), drawn(Layout::Phone));
-    let film = kept.filter(|kept| !kept.frames().is_empty()).map(|kept| {
-        let told = (&answer, &outcome);
-        ants::encode(&ground, told, kept.frames(), AntsKind::Gif)
-    });
+    let film = kept
+        .filter(|kept| !kept.frames().is_empty())
+        .map(|kept| ants::encode(&ground, &answer, &outcome, kept.frames(), AntsKind::Gif));
     let png = case
         .has_png
         .then(|| picture::encode(&picture, PictureKind::Png));

@@ -66,7 +66,7 @@ impl Table {
     }
 }
 
-/// What a path measures, as text; empty where there is none.
+/// The measures of a path as text; empty without a path.
 #[derive(Debug, Default)]
 pub(super) struct Numbers {
     pub(super) length: String,
@@ -98,7 +98,8 @@ impl Numbers {
 
 /// Writes how many found a path, and where to look.
 pub(super) fn write_end(
-    (done, total_s): (&[Done], f64),
+    done: &[Done],
+    total_s: f64,
     page: &Path,
     out: &mut impl Write,
 ) -> io::Result<()> {
@@ -107,7 +108,7 @@ pub(super) fn write_end(
     writeln!(out, "{total_s:.1} s in all; look at {}", page.display())
 }
 
-/// How the runs ended, in words.
+/// The endings of the runs in words.
 pub(super) fn tally(done: &[Done]) -> Vec<String> {
     let count = |keep: fn(&&Done) -> bool| done.iter().filter(keep).count();
     let n_found = count(|d| d.is_found());

@@ -14,27 +14,27 @@ pub(crate) struct MapArgs {
     pub(super) command: MapCommand,
 }
 
-/// What to do with maps.
+/// The commands of `map`.
 #[derive(Debug, Subcommand)]
 pub(super) enum MapCommand {
-    /// Size, frame, cells, components and the widest place of a map.
+    /// Print size, frame, cells, components and the point with the most clearance.
     Info(InfoArgs),
     /// Write a map in another format: .yaml, .pgm, .png, .map, .txt or .csv.
     Convert(ConvertArgs),
-    /// Make a map from a seed.
+    /// Generate a map from a seed.
     Generate(GenerateArgs),
-    /// The widest body that passes from one place to another; exit code 3 where none does.
+    /// Measure the widest body that passes between two points; exit code 3 if none does.
     Clearance(ClearanceArgs),
 }
 
-/// A map, and how to read it.
+/// A map and its cell size.
 #[derive(Args, Debug)]
 pub(super) struct MapSource {
     /// Map file (ROS .yaml, MovingAI .map, .csv or .txt matrix, image) or name of a built-in map.
     #[arg(value_name = "F|NAME", value_hint = ValueHint::FilePath)]
     pub(super) map: String,
 
-    /// Side of a cell, metres, for formats that do not say.
+    /// Cell size in meters, for formats that do not hold it.
     #[arg(long, value_name = "M", value_parser = values::positive, allow_hyphen_values = true)]
     pub(super) resolution: Option<f64>,
 }
@@ -45,7 +45,7 @@ pub(super) struct InfoArgs {
     #[command(flatten)]
     pub(super) source: MapSource,
 
-    /// How unknown cells count for components and clearance.
+    /// Treat unknown cells as free or as occupied, for components and clearance.
     #[arg(long, value_name = "POLICY", default_value = "occupied",
           value_parser = values::word::<UnknownPolicy>(&["free", "occupied"]))]
     pub(super) unknown: UnknownPolicy,
@@ -65,17 +65,17 @@ pub(super) struct ConvertArgs {
     #[arg(value_name = "OUT", value_hint = ValueHint::FilePath)]
     pub(super) out: PathBuf,
 
-    /// Decide unknown cells; they stay unknown without it.
+    /// Make unknown cells free or occupied; without it they stay unknown.
     #[arg(long, value_name = "POLICY",
           value_parser = values::word::<UnknownPolicy>(&["free", "occupied"]))]
     pub(super) unknown: Option<UnknownPolicy>,
 
-    /// Write formats that keep neither resolution nor origin, and do without these.
+    /// Allow formats that keep neither resolution nor origin.
     #[arg(long)]
     pub(super) drop_frame: bool,
 }
 
-/// What can be generated.
+/// The kinds of generated maps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Kind {
     /// Blocks of houses, streets with parked cars, alleys of 2 to 4 m, dead ends, yards.
@@ -87,22 +87,22 @@ pub(super) enum Kind {
 /// Flags of `map generate`.
 #[derive(Args, Debug)]
 pub(super) struct GenerateArgs {
-    /// What to generate.
+    /// The kind of map.
     pub(super) kind: Kind,
 
     /// Same seed, same map.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(super) seed: u64,
 
-    /// Columns: 800 of a neighborhood, 200 of a scatter by default.
+    /// Columns: 800 for a neighborhood, 200 for a scatter by default.
     #[arg(long, value_name = "N")]
     pub(super) width_cells: Option<usize>,
 
-    /// Rows: 500 of a neighborhood, 200 of a scatter by default.
+    /// Rows: 500 for a neighborhood, 200 for a scatter by default.
     #[arg(long, value_name = "N")]
     pub(super) height_cells: Option<usize>,
 
-    /// Side of a cell, metres: 0.2 of a neighborhood, 0.1 of a scatter by default.
+    /// Cell size, meters: 0.2 for a neighborhood, 0.1 for a scatter by default.
     #[arg(long, value_name = "M", value_parser = values::positive, allow_hyphen_values = true)]
     pub(super) resolution: Option<f64>,
 
@@ -114,7 +114,7 @@ pub(super) struct GenerateArgs {
     #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
     pub(super) out: PathBuf,
 
-    /// Write formats that keep neither resolution nor origin, and do without these.
+    /// Allow formats that keep neither resolution nor origin.
     #[arg(long)]
     pub(super) drop_frame: bool,
 }
@@ -125,15 +125,15 @@ pub(super) struct ClearanceArgs {
     #[command(flatten)]
     pub(super) source: MapSource,
 
-    /// Where the way begins, metres.
+    /// Start of the passage, meters.
     #[arg(long, value_name = "X,Y", value_parser = values::point, allow_hyphen_values = true)]
     pub(super) start: Point2,
 
-    /// Where it ends.
+    /// End of the passage.
     #[arg(long, value_name = "X,Y", value_parser = values::point, allow_hyphen_values = true)]
     pub(super) goal: Point2,
 
-    /// How unknown cells count.
+    /// Treat unknown cells as free or as occupied.
     #[arg(long, value_name = "POLICY", default_value = "occupied",
           value_parser = values::word::<UnknownPolicy>(&["free", "occupied"]))]
     pub(super) unknown: UnknownPolicy,

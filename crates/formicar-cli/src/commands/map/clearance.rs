@@ -1,6 +1,7 @@
-//! `map clearance`: the widest body that passes from one place to another.
+//! `map clearance`: the widest body that passes between two points.
 
 use super::args::ClearanceArgs;
+use super::files;
 use crate::failure::{Ending, Failure};
 use anyhow::{Result, bail};
 use formicar::collision::ObstacleMap;
@@ -13,23 +14,23 @@ use formicar::vehicle::Vehicle;
 use serde::Serialize;
 use std::io::{self, Write};
 
-/// What `map clearance --json` prints.
+/// The document of `map clearance --json`.
 #[derive(Debug, Serialize)]
 struct Clearance {
     schema: &'static str,
-    /// Whether any way leads there.
+    /// Whether the two points are connected.
     connected: bool,
     /// A disc this wide passes: twice the clearance of a point along the way, exactly measured.
     width_m: Option<f64>,
     /// No disc wider than this passes anywhere.
     limit_m: Option<f64>,
-    /// Where the way is narrowest.
+    /// The narrowest point of the passage.
     narrowest: Option<[f64; 2]>,
 }
 
 /// Carries out `map clearance`.
 pub(super) fn run(args: &ClearanceArgs, out: &mut impl Write) -> Result<Ending, Failure> {
-    let grid = super::read(&args.source)?.with_unknown(args.unknown);
+    let grid = files::read(&args.source)?.with_unknown(args.unknown);
     let obstacles = ObstacleMap::new(&grid);
     let ends = [
         end(&obstacles, "start", args.start)?,
@@ -54,7 +55,7 @@ fn end(obstacles: &ObstacleMap, what: &str, point: Point2) -> Result<Cell> {
     let Some(cell) = obstacles.frame().cell_at(point) else {
         let extent = obstacles.frame().extent_m();
         bail!(
-            "{what} ({}, {}) m is off the map of {:.2} x {:.2} m; hint: `map info` tells its \
+            "{what} ({}, {}) m is off the map of {:.2} x {:.2} m; hint: `map info` prints its \
              extents",
             point.x,
             point.y,

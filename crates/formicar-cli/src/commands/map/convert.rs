@@ -1,13 +1,14 @@
 //! `map convert`: a map in another format.
 
-use super::Frame;
 use super::args::ConvertArgs;
+use super::files;
+use super::files::Frame;
 use crate::failure::{Ending, Failure};
 use std::io::Write;
 
 /// Carries out `map convert`.
 pub(super) fn run(args: &ConvertArgs, out: &mut impl Write) -> Result<Ending, Failure> {
-    let grid = super::read(&args.source)?;
+    let grid = files::read(&args.source)?;
     let grid = match args.unknown {
         Some(policy) => grid.with_unknown(policy),
         None => grid,
@@ -17,7 +18,7 @@ pub(super) fn run(args: &ConvertArgs, out: &mut impl Write) -> Result<Ending, Fa
     } else {
         Frame::Keep
     };
-    super::write(&args.out, &grid, frame)?;
+    files::write(&args.out, &grid, frame)?;
     writeln!(
         out,
         "{}: {} x {} cells of {} m",

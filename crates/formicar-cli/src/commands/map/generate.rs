@@ -1,7 +1,8 @@
 //! `map generate`: a map from a seed.
 
-use super::Frame;
 use super::args::{GenerateArgs, Kind};
+use super::files;
+use super::files::Frame;
 use crate::failure::{Ending, Failure};
 use anyhow::{Context, Result, anyhow, bail};
 use formicar::map::OccupancyGrid;
@@ -22,7 +23,7 @@ pub(super) fn run(args: &GenerateArgs, out: &mut impl Write) -> Result<Ending, F
     } else {
         Frame::Keep
     };
-    super::write(&args.out, &grid, frame)?;
+    files::write(&args.out, &grid, frame)?;
     let n_blocked = grid.lethal_cells().count();
     writeln!(
         out,

@@ -1,6 +1,7 @@
 //! `map info`: a map in numbers.
 
 use super::args::InfoArgs;
+use super::files;
 use crate::failure::{Ending, Failure};
 use formicar::collision::{Body, ObstacleMap};
 use formicar::geometry::{Point2, Pose2};
@@ -10,7 +11,7 @@ use formicar::vehicle::Vehicle;
 use serde::Serialize;
 use std::io::{self, Write};
 
-/// What `map info --json` prints.
+/// The document of `map info --json`.
 #[derive(Debug, Serialize)]
 struct Info {
     schema: &'static str,
@@ -47,7 +48,7 @@ struct Widest {
 
 /// Carries out `map info`.
 pub(super) fn run(args: &InfoArgs, out: &mut impl Write) -> Result<Ending, Failure> {
-    let grid = super::read(&args.source)?;
+    let grid = files::read(&args.source)?;
     let info = describe(&args.source.map, grid, args);
     if args.json {
         serde_json::to_writer(&mut *out, &info).map_err(io::Error::from)?;

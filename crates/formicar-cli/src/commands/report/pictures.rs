@@ -1,7 +1,7 @@
 //! Paths of stores on their maps, planner over planner, and what the first one's is like.
 
 use crate::commands::bench::ground_args;
-use crate::ground::{self, Ground};
+use crate::scene;
 use formicar::geometry::Point2;
 use formicar::path::CurvePath;
 use formicar_lab::campaign::{Job, Record, Stored};
@@ -26,7 +26,7 @@ pub(super) fn section(stores: &[(String, Stored)]) -> Option<Section> {
     let scenes = scenes(stores);
     let drawn = scenes.iter().filter_map(|scene| {
         let args = ground_args(&scene.job.task, scene.job.vehicle_source());
-        Some(draw(scene, &ground::load(&args).ok()?))
+        Some(draw(scene, &scene::load(&args).ok()?))
     });
     let blocks: Vec<Block> = drawn.take(MOST_DRAWN).flatten().collect();
     (!blocks.is_empty()).then(|| Section {
@@ -65,7 +65,7 @@ fn with_jobs(store: &Stored) -> impl Iterator<Item = (&Record, &Job)> {
     store.records.iter().filter_map(with_job)
 }
 
-fn draw(scene: &Scene, ground: &Ground) -> Vec<Block> {
+fn draw(scene: &Scene, ground: &scene::Scene) -> Vec<Block> {
     let [scenario, vehicle, motion] = scene.place;
     let (planner, path) = &scene.paths[0];
     let vehicle_name = if vehicle.is_empty() { "own" } else { vehicle };

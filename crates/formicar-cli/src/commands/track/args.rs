@@ -1,6 +1,6 @@
-//! The flags of `track`, and the parameters they stand for.
+//! The flags of `track` and the parameters they set.
 
-use crate::args::GroundArgs;
+use crate::scene::SceneArgs;
 use crate::values;
 use anyhow::{Result, bail};
 use clap::{Args, ValueEnum, ValueHint};
@@ -10,19 +10,19 @@ use std::path::PathBuf;
 /// Flags of `track`.
 #[derive(Args, Debug)]
 pub(crate) struct TrackArgs {
-    /// The path: an answer of `plan` (.json), or a CSV of x, y[, heading] in metres and radians;
+    /// The path: an answer of `plan` (.json), or a CSV of x, y[, heading] in meters and radians;
     /// `-` reads it from stdin.
     #[arg(value_name = "PATH", value_hint = ValueHint::FilePath)]
     pub(super) path: PathBuf,
 
     #[command(flatten)]
-    pub(super) ground: GroundArgs,
+    pub(super) scene: SceneArgs,
 
-    /// What turns the wheels; `stanley` by default.
+    /// Steering controller; `stanley` by default.
     #[arg(long, value_name = "LAW")]
     controller: Option<Law>,
 
-    /// How far ahead `pure-pursuit` looks, metres; half a wheelbase by default.
+    /// Lookahead distance of `pure-pursuit`, meters; half a wheelbase by default.
     #[arg(long, value_name = "M", value_parser = values::positive, allow_hyphen_values = true)]
     lookahead: Option<f64>,
 
@@ -30,7 +30,7 @@ pub(crate) struct TrackArgs {
     #[arg(long, value_name = "PER_S", value_parser = values::positive, allow_hyphen_values = true)]
     gain: Option<f64>,
 
-    /// What `stanley` adds to the speed, so that a slow vehicle turns its wheels less, m/s.
+    /// Softening speed of `stanley`, which limits steering at low speed, m/s.
     #[arg(long, value_name = "MPS", value_parser = values::not_negative, allow_hyphen_values = true)]
     softening: Option<f64>,
 
@@ -38,17 +38,16 @@ pub(crate) struct TrackArgs {
     #[arg(long, value_name = "MPS", value_parser = values::positive, allow_hyphen_values = true)]
     speed: Option<f64>,
 
-    /// Fastest turn of the wheels in rad/s (or 30deg); that of the vehicle by default, or any.
+    /// Steering rate in rad/s (or 30deg); that of the vehicle by default, or unlimited.
     #[arg(long, value_name = "RAD_PER_S", value_parser = values::turn_rate, allow_hyphen_values = true)]
     steer_rate: Option<f64>,
 
-    /// Where the vehicle starts beside the path: metres to the left, radians (or 5deg), metres
-    /// ahead.
+    /// Offset of the start from the path: meters to the left, radians (or 5deg), meters ahead.
     #[arg(long, value_name = "LEFT[,TURN[,AHEAD]]", value_parser = values::start_offset,
           allow_hyphen_values = true)]
     offset: Option<StartOffset>,
 
-    /// Time for which the wheels are held, seconds; 0.02 by default.
+    /// Time step of the simulation, seconds; 0.02 by default.
     #[arg(long, value_name = "S", value_parser = values::positive, allow_hyphen_values = true)]
     time_step: Option<f64>,
 
@@ -56,7 +55,7 @@ pub(crate) struct TrackArgs {
     #[arg(long, value_name = "S", value_parser = values::positive, allow_hyphen_values = true)]
     record: Option<f64>,
 
-    /// Distance from the path at which the vehicle has left it, metres; 2 by default.
+    /// Distance from the path at which the drive is given up, meters; 2 by default.
     #[arg(long, value_name = "M", value_parser = values::positive, allow_hyphen_values = true)]
     give_up: Option<f64>,
 
@@ -68,19 +67,19 @@ pub(crate) struct TrackArgs {
     #[arg(long, value_name = "F.svg|F.png", value_hint = ValueHint::FilePath)]
     pub(super) picture: Option<PathBuf>,
 
-    /// Print everything, the trace too, as one JSON object (see `schema track`).
+    /// Print the result with its trace as one JSON object (see `schema track`).
     #[arg(long)]
     pub(super) json: bool,
 }
 
-/// What turns the wheels.
+/// The steering controllers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Law {
-    /// The path's own steering angle over the driven length.
+    /// The path's own steering angle at the driven length.
     OpenLoop,
-    /// Along the circle to a point ahead.
+    /// Follow the circle to a point ahead.
     PurePursuit,
-    /// The front wheels along the path, and towards it.
+    /// The front wheels follow the path and steer toward it.
     Stanley,
 }
 

@@ -5,29 +5,17 @@ mod words;
 
 pub(crate) use args::TrackArgs;
 
-use super::subject;
 use crate::failure::{Ending, Failure};
-use crate::ground::{self, Ground};
 use crate::output::Target;
+use crate::path_file;
 use crate::picture::{self, PictureKind};
+use crate::scene;
 use anyhow::{Context, Result};
 use formicar::collision::ObstacleMap;
-use formicar::path::CurvePath;
 use formicar::render::{DrivePicture, drive_picture};
-use formicar::tracking::{DrivenClearance, Tracking, track};
-use formicar::validation::Report;
+use formicar::tracking::track;
 use std::io::{self, Write};
-
-/// A drive with the ground it was driven on.
-struct Driven<'a> {
-    ground: &'a Ground,
-    obstacles: &'a ObstacleMap,
-    /// The path that was to be driven, and what the judge says of it.
-    planned: &'a CurvePath,
-    report: &'a Report,
-    drive: &'a Tracking,
-    clearance: &'a DrivenClearance,
-}
+use words::Driven;
 
 /// Carries out `track`.
 pub(crate) fn run(args: &TrackArgs, out: &mut impl Write) -> Result<Ending, Failure> {
@@ -42,16 +30,16 @@ pub(crate) fn run(args: &TrackArgs, out: &mut impl Write) -> Result<Ending, Fail
         .map(|path| Target::new(path, &picture::KINDS));
     let image = image.transpose()?;
     let config = args.config()?;
-    let ground = ground::load(&args.ground)?;
-    let vehicle = &ground.vehicle.vehicle;
+    let scene = scene::load(&args.scene)?;
+    let vehicle = &scene.vehicle.vehicle;
     let config = config.for_vehicle(vehicle).map_err(anyhow::Error::from)?;
-    let subject = subject::read(&args.path, vehicle)?;
-    let obstacles = ObstacleMap::new(&ground.map);
-    let (planned, report) = subject.judged(&obstacles, vehicle);
+    let file = path_file::read(&args.path, vehicle)?;
+    let obstacles = ObstacleMap::new(&scene.map);
+    let (planned, report) = file.judged(&obstacles, vehicle);
     let drive =
         track(planned, vehicle, &config).with_context(|| args.path.display().to_string())?;
     let driven = Driven {
-        ground: &ground,
+        scene: &scene,
         obstacles: &obstacles,
         planned,
         report: &report,
@@ -80,19 +68,19 @@ pub(crate) fn run(args: &TrackArgs, out: &mut impl Write) -> Result<Ending, Fail
 }
 
 fn write_picture(driven: &Driven, target: &Target<PictureKind>) -> Result<()> {
-    let (ground, clearance) = (driven.ground, driven.clearance);
-    let vehicle = &ground.vehicle.vehicle;
+    let (scene, clearance) = (driven.scene, driven.clearance);
+    let vehicle = &scene.vehicle.vehicle;
     let nearest_at = clearance.contact.map_or(clearance.tightest, |c| c.pose);
     let place = driven.obstacles.contact(vehicle, nearest_at);
     let image = drive_picture(&DrivePicture {
-        map: &ground.map,
+        map: &scene.map,
         vehicle,
         planned: driven.planned,
         drive: driven.drive,
         tightest: Some((place, clearance.min_clearance_m)),
         title: &format!(
             "{}: {}",
-            ground.record.name,
+            scene.record.name,
             words::verdict(driven).replace('_', " ")
         ),
         caption: &words::caption(driven),

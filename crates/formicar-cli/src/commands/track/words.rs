@@ -1,13 +1,26 @@
-//! What a person reads about a drive.
+//! The report of a drive for people.
 
-use super::Driven;
+use crate::scene::Scene;
 use crate::summary::clearance;
+use formicar::collision::ObstacleMap;
 use formicar::numeric::counted;
-use formicar::tracking::{Controller, TrackingStatus};
-use formicar::validation::ViolationKind;
+use formicar::path::CurvePath;
+use formicar::tracking::{Controller, DrivenClearance, Tracking, TrackingStatus};
+use formicar::validation::{Report, ViolationKind};
 use std::io::{self, Write};
 
-/// How it went, in a word.
+/// A drive with the scene it was driven on.
+pub(super) struct Driven<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) obstacles: &'a ObstacleMap,
+    /// The path that was to be driven, and what the judge says of it.
+    pub(super) planned: &'a CurvePath,
+    pub(super) report: &'a Report,
+    pub(super) drive: &'a Tracking,
+    pub(super) clearance: &'a DrivenClearance,
+}
+
+/// The result in a word.
 pub(super) fn verdict(driven: &Driven) -> &'static str {
     match (driven.drive.status, &driven.clearance.contact) {
         (_, Some(_)) => "collides",
@@ -21,12 +34,12 @@ pub(super) fn caption(driven: &Driven) -> String {
     let summary = &driven.drive.summary;
     format!(
         "{} by {} at {} m/s: {:.2} m in {:.0} s, {} m beside the path at most, {}, swept {:.1} m²",
-        driven.ground.vehicle.name,
+        driven.scene.vehicle.name,
         law(driven),
         speed(driven),
         summary.driven_m,
         summary.duration_s,
-        metres(summary.max_cross_track_error_m),
+        meters(summary.max_cross_track_error_m),
         nearest(driven),
         summary.swept_area_m2,
     )
@@ -49,22 +62,22 @@ pub(super) fn explain(driven: &Driven, out: &mut impl Write) -> io::Result<()> {
     writeln!(
         out,
         "error      cross-track {} m at most, {} rms; heading {} deg at most, {} rms",
-        metres(summary.max_cross_track_error_m),
-        metres(summary.rms_cross_track_error_m),
+        meters(summary.max_cross_track_error_m),
+        meters(summary.rms_cross_track_error_m),
         degrees(summary.max_heading_error_rad),
         degrees(summary.rms_heading_error_rad),
     )?;
     writeln!(
         out,
         "goal       missed by {} m and {} deg",
-        metres(summary.goal_error_m),
+        meters(summary.goal_error_m),
         degrees(summary.goal_error_rad),
     )?;
-    let vehicle = &driven.ground.vehicle.vehicle;
+    let vehicle = &driven.scene.vehicle.vehicle;
     let limit_rad = vehicle.steer_rad(vehicle.max_curvature_per_m());
     writeln!(
         out,
-        "wheels     {} of {} deg at most, the inner one {}; more was asked for on {:.1} % of the way",
+        "wheels     {} of {} deg at most, the inner one {}; saturated on {:.1} % of the drive",
         degrees(summary.max_steer_rad),
         limit_rad.map_or(String::new(), degrees),
         degrees(summary.max_wheel_rad),
@@ -78,7 +91,7 @@ pub(super) fn explain(driven: &Driven, out: &mut impl Write) -> io::Result<()> {
     )
 }
 
-/// How near the body came to anything.
+/// The least distance of the body from obstacles.
 fn nearest(driven: &Driven) -> String {
     match driven.clearance.violations.len() {
         0 => format!(
@@ -90,7 +103,7 @@ fn nearest(driven: &Driven) -> String {
     }
 }
 
-/// Where it went wrong, and whether the path was wrong to begin with.
+/// The point where the drive failed, and whether the path was infeasible itself.
 fn explain_end(driven: &Driven, out: &mut impl Write) -> io::Result<()> {
     if let Some(contact) = driven.clearance.contact {
         let what = match contact.kind {
@@ -109,7 +122,7 @@ fn explain_end(driven: &Driven, out: &mut impl Write) -> io::Result<()> {
             out,
             "left_path  at {:.2} m of it: {} m beside it, the limit is {} m",
             last.s_m,
-            metres(last.cross_track_error_m.abs()),
+            meters(last.cross_track_error_m.abs()),
             config.give_up_error_m,
         )?,
         (TrackingStatus::GaveUp, Some(last)) => writeln!(
@@ -143,9 +156,9 @@ fn speed(driven: &Driven) -> f64 {
     driven.drive.config.speed_mps.unwrap_or_default()
 }
 
-/// To the millimetre.
-fn metres(metres: f64) -> String {
-    format!("{metres:.3}")
+/// A length to the millimeter.
+fn meters(meters: f64) -> String {
+    format!("{meters:.3}")
 }
 
 fn degrees(radians: f64) -> String {

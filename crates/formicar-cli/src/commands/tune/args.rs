@@ -1,7 +1,7 @@
 //! Flags of `tune`.
 #![allow(clippy::doc_markdown, reason = "clap prints these words as they stand")]
 
-use crate::args::Modes;
+use crate::mode_args::ModeArgs;
 use crate::values;
 use clap::{Args, ValueHint};
 use formicar::planner::PlannerName;
@@ -105,7 +105,7 @@ pub(crate) struct TuneArgs {
     pub(crate) budget: u64,
 
     #[command(flatten)]
-    pub(crate) modes: Modes,
+    pub(crate) modes: ModeArgs,
 
     /// Runs at once; the result never depends on it.
     #[arg(long, value_name = "N", default_value_t = 1,

@@ -1,9 +1,9 @@
 //! From the words on the command line to scenarios that can be asked.
 
 use super::TuneArgs;
-use crate::args::GroundArgs;
-use crate::files::ScenarioFile;
-use crate::ground;
+use crate::scene;
+use crate::scene::ScenarioFile;
+use crate::scene::SceneArgs;
 use anyhow::{Context, Result, bail};
 use formicar::map::builtin::BuiltinMap;
 use formicar::scenario::Request;
@@ -25,7 +25,7 @@ pub(super) fn asked(args: &TuneArgs, words: &[String]) -> Result<Vec<Asked>> {
     Ok(all)
 }
 
-fn places(word: &str) -> Result<Vec<(String, GroundArgs)>> {
+fn places(word: &str) -> Result<Vec<(String, SceneArgs)>> {
     let path = Path::new(word);
     let is_file = path
         .extension()
@@ -37,23 +37,23 @@ fn places(word: &str) -> Result<Vec<(String, GroundArgs)>> {
     }
 }
 
-fn of_builtin(word: &str) -> Result<Vec<(String, GroundArgs)>> {
+fn of_builtin(word: &str) -> Result<Vec<(String, SceneArgs)>> {
     let map = BuiltinMap::by_name(word).context("hint: a scenario file is .json or .csv")?;
-    let place = |id: &str| GroundArgs {
+    let place = |id: &str| SceneArgs {
         map: Some(map.name.to_owned()),
         request: Some(id.to_owned()),
-        ..GroundArgs::default()
+        ..SceneArgs::default()
     };
     let requests = map.requests.iter();
     let named = requests.map(|request| (format!("{word}-{}", request.id), place(request.id)));
     Ok(named.collect())
 }
 
-fn of_file(path: &Path) -> Result<Vec<(String, GroundArgs)>> {
-    let place = |id: Option<String>| GroundArgs {
+fn of_file(path: &Path) -> Result<Vec<(String, SceneArgs)>> {
+    let place = |id: Option<String>| SceneArgs {
         scenario: Some(path.to_owned()),
         id,
-        ..GroundArgs::default()
+        ..SceneArgs::default()
     };
     Ok(match ScenarioFile::read(path)? {
         ScenarioFile::Cars(cars) => {
@@ -64,8 +64,8 @@ fn of_file(path: &Path) -> Result<Vec<(String, GroundArgs)>> {
     })
 }
 
-fn prepared(args: &TuneArgs, name: String, place: &GroundArgs) -> Result<Asked> {
-    let ground = ground::load(place).with_context(|| name.clone())?;
+fn prepared(args: &TuneArgs, name: String, place: &SceneArgs) -> Result<Asked> {
+    let ground = scene::load(place).with_context(|| name.clone())?;
     let [start, goal] = ground
         .ends
         .with_context(|| format!("{name}: it has no start and goal"))?;

@@ -174,8 +174,8 @@ fn in_a_sentence(words: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Claim, Comparison, Counted};
     use super::*;
+    use crate::papers::claims::{Claim, Comparison, Counted};
     use crate::report::Verdict;
 
     #[test]

@@ -139,6 +139,6 @@ mod tests {
 
     #[test]
     fn no_text_makes_it_panic() {
-        super::super::tests::assert_no_text_panics(PATH, |text| drop(read(text)));
+        crate::rival::import::tests::assert_no_text_panics(PATH, |text| drop(read(text)));
     }
 }

@@ -221,7 +221,7 @@ mod tests {
             }],
             ..OmplLog::default()
         };
-        let runs = super::super::read(&log.to_text()).unwrap();
+        let runs = crate::rival::import::read(&log.to_text()).unwrap();
         assert_eq!(runs.len(), 2);
         assert_eq!(runs[0].planner.as_deref(), Some("hybrid-astar"));
         assert_eq!(runs[0].measured, [("query_s", 0.5), ("length_m", 6.0)]);
@@ -265,6 +265,6 @@ mod tests {
 
     #[test]
     fn no_text_makes_it_panic() {
-        super::super::tests::assert_no_text_panics(LOG, |text| drop(read(text)));
+        crate::rival::import::tests::assert_no_text_panics(LOG, |text| drop(read(text)));
     }
 }

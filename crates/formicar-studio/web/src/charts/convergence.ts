@@ -1,4 +1,4 @@
-/** How a search converged: costs and evaporation over iterations, or lengths over time. */
+/** The convergence of a search: costs and evaporation over iterations, or lengths over time. */
 
 import uPlot from "uplot";
 import { h, setText } from "../dom";
@@ -86,7 +86,7 @@ class Convergence {
     this.plot.renew(data);
   }
 
-  /** Where the shown frame stands on the horizontal axis. */
+  /** The position of the shown frame on the horizontal axis. */
   private placeOf(state: Readonly<State>): number | null {
     const frames = shownSlot(state).plan?.frames ?? [];
     const shown = state.frame === null ? null : frames[state.frame];
@@ -117,7 +117,7 @@ function placeOfFrame(one: Frame, kind: Kind | null): number | null {
   return one.type === "iteration" || one.type === "generation" ? one.record.iteration : null;
 }
 
-/** What there is to draw of a plan; null where it neither iterates nor improves. */
+/** The data of a plan to draw; null if it neither iterates nor improves. */
 function curvesOf(plan: PlanState): Curves | null {
   const records = recordsOf(plan);
   if (records.length > 1) return iterations(plan.plan, records);

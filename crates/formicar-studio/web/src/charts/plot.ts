@@ -109,7 +109,7 @@ export function axis(more: uPlot.Axis): uPlot.Axis {
   };
 }
 
-/** What all charts have: no legend, no cursor of their own. */
+/** The options of all charts: no legend, no cursor of their own. */
 export function frame(): Pick<uPlot.Options, "legend" | "cursor" | "padding"> {
   return { legend: { show: false }, cursor: { show: false }, padding: [7, 16, 2, 0] };
 }

@@ -89,7 +89,7 @@ export class Strip {
     this.element.toggleAttribute("data-hover", value !== null);
   }
 
-  /** What the whole path comes to: the greatest size, or of the clearance the least. */
+  /** The value for the whole path: the greatest magnitude, or the least clearance. */
   private extremeOf(values: (number | null)[]): string {
     const known = values.filter((value) => value !== null);
     if (known.length === 0) return "";

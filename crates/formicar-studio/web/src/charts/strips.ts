@@ -1,7 +1,7 @@
 /** Curvature, steering and clearance over the length of the path, with their limits. */
 
 import { h } from "../dom";
-import { degrees, fixed, metres } from "../format";
+import { degrees, fixed, meters } from "../format";
 import type { Answer, PoseRecord } from "../protocol";
 import { answerOf, posesOf, shownSlot } from "../state";
 import type { State, Store } from "../store";
@@ -22,7 +22,7 @@ class Strips {
   private readonly empty = h(
     "p",
     { class: "empty" },
-    "Without a path there is nothing to draw along it.",
+    "There is no path to draw a profile of.",
   );
   private poses: PoseRecord[] = [];
   private timer = 0;
@@ -42,7 +42,7 @@ class Strips {
         class: "strips",
         tabindex: 0,
         role: "slider",
-        "aria-label": "Place along the path",
+        "aria-label": "Position along the path",
         "aria-orientation": "horizontal",
         onkeydown: (event: KeyboardEvent) => this.key(event),
       },
@@ -132,7 +132,7 @@ function poseNear(poses: readonly PoseRecord[], at: number): PoseRecord | null {
 }
 
 function inWords({ s, curvature, steer, clearance }: PoseRecord): string {
-  return `${metres(s)}: curvature ${fixed(curvature, 3)} per metre, steering ${degrees(steer)}, clearance ${metres(clearance)}`;
+  return `${meters(s)}: curvature ${fixed(curvature, 3)} per meter, steering ${degrees(steer)}, clearance ${meters(clearance)}`;
 }
 
 /** The sampled poses, and between them the tightest place as the judge found it. */

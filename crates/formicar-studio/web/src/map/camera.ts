@@ -1,4 +1,4 @@
-/** What part of the world is seen: a place in the middle and a scale. Maps side by side share one. */
+/** The visible part of the world: its center and a scale. Maps side by side share one. */
 
 import { bounds, type Grid } from "../cells";
 import type { Store } from "../store";
@@ -19,7 +19,7 @@ export class Camera {
   x = 0;
   y = 0;
   pxPerM = 10;
-  /** Whether the whole map is shown, untouched since. */
+  /** Whether the whole map is shown, unchanged since it was fitted. */
   isFitted = true;
   private minPxPerM = 1e-3;
   private maxPxPerM = 1e4;
@@ -70,7 +70,7 @@ export class Camera {
   }
 }
 
-/** How far a map with such margins is moved out from under the tools, to the right or down. */
+/** The shift that moves a map with such margins out from under the tools, right or down. */
 function aside(left: number, top: number): Point {
   const [right, down] = [TOOLS_PX[0] - left, TOOLS_PX[1] - top];
   if (right <= 0 || down <= 0) return [0, 0];
@@ -98,7 +98,7 @@ export class View {
     ];
   }
 
-  /** Whether a place is in the window. */
+  /** Whether a point is in the window. */
   shows(x: number, y: number): boolean {
     const [px, py] = this.toPx(x, y);
     return px >= 0 && py >= 0 && px <= this.widthPx && py <= this.heightPx;

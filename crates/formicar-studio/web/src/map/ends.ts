@@ -48,7 +48,7 @@ export function drawEnds(
   }
 }
 
-/** What of the ends lies within reach of a place; the arrow's tip wins, then what is nearest. */
+/** The end within reach of a point; the arrow's tip wins, then the nearest. */
 export function gripAt(
   view: View,
   request: Request,
@@ -71,14 +71,14 @@ export function gripAt(
   return near[0]?.grip ?? null;
 }
 
-/** Where the tip of an end's arrow is. */
+/** The tip of an end's arrow. */
 export function tipPx(view: View, pose: Pose, vehicle: VehicleMessage | null): Point {
   const [x, y] = view.toPx(pose[0], pose[1]);
   const reach = reachPx(view, vehicle);
   return [x + reach * Math.cos(pose[2]), y - reach * Math.sin(pose[2])];
 }
 
-/** How far a place is from the body, pixels; 0 within it. */
+/** The distance of a point from the body, pixels; 0 within it. */
 function bodyDistancePx(view: View, pose: Pose, vehicle: VehicleMessage | null, at: Point): number {
   const [x, y] = view.toWorld(at);
   const [cos, sin] = [Math.cos(pose[2]), Math.sin(pose[2])];

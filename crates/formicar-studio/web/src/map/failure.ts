@@ -1,6 +1,6 @@
 /** Why there is no path, drawn: cells that collide, and the gap that could not be passed. */
 
-import { fixed, metres } from "../format";
+import { fixed, meters } from "../format";
 import type { Answer } from "../protocol";
 import type { MapState } from "../store";
 import { ring } from "./marks";
@@ -17,7 +17,7 @@ export function drawFailure(sheet: Sheet, map: MapState, answer: Answer): void {
     sheet,
     gap.x,
     gap.y,
-    `gap ${metres(gap.gap_m)}, vehicle ${metres(gap.vehicle_width_m)}`,
+    `gap ${meters(gap.gap_m)}, vehicle ${meters(gap.vehicle_width_m)}`,
   );
 }
 

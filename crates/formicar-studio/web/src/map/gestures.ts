@@ -2,7 +2,7 @@
 
 import type { Camera, Point, View } from "./camera";
 
-/** What a press has taken hold of. */
+/** The object of a press. */
 export interface Drag {
   move(at: Point): void;
   end(): void;
@@ -11,9 +11,9 @@ export interface Drag {
 }
 
 export interface Touched {
-  /** What a press takes hold of; null: the map itself, which is then panned. */
+  /** Finds the object of a press; null: the map itself, which is then panned. */
   press(at: Point, isTouch: boolean): Drag | null;
-  /** Where the pointer hovers; null where it has left. */
+  /** The position of the hovering pointer; null once it has left. */
   hover(at: Point | null): void;
 }
 

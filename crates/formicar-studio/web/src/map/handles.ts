@@ -10,7 +10,7 @@ import type { End } from "./ends";
 
 const TURN_RAD = Math.PI / 36;
 const LARGE_STEP = 10;
-const HELP = "Arrow keys move it by a cell, with shift by ten; R and shift R turn it by 5 degrees.";
+const HELP = "Arrow keys move it by one cell, with Shift by ten; R and Shift R turn it by 5 degrees.";
 
 export class Handles {
   private readonly buttons: Record<End, HTMLButtonElement>;

@@ -1,4 +1,4 @@
-/** What presses on the map do: move an end, turn it, paint, erase; and what hovering points at. */
+/** Pointer actions on the map: move an end, turn it, paint, erase, hover. */
 
 import type { Actions } from "../actions";
 import { toCells } from "../cells";
@@ -19,9 +19,9 @@ const FREE = 0;
 const SNAP_RAD = 0.05;
 
 export class Hands implements Touched {
-  /** What is held or lies under the pointer. */
+  /** The object that is held or lies under the pointer. */
   held: Grip | null = null;
-  /** Where the pointer is, world coordinates. */
+  /** The position of the pointer, world coordinates. */
   pointer: Point | null = null;
   /** Whether something is being dragged or painted. */
   isBusy = false;
@@ -74,7 +74,7 @@ export class Hands implements Touched {
     this.point(this.held === null && tool === "move" ? this.pointer : null);
   }
 
-  /** What the pointer would do. */
+  /** The action of the pointer. */
   get cursor(): string {
     if (this.store.state.tool !== "move") return "none";
     if (this.held !== null) return this.held.part === "body" ? "move" : "grab";

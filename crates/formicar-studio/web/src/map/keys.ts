@@ -69,7 +69,7 @@ function scaleBrush(store: Store, factor: number): void {
   store.set({ brushM: Math.min(Math.max(brushM * factor, least), most) });
 }
 
-/** Whether keys belong to what has the focus: a field or a dialog. */
+/** Whether the focused element, a field or a dialog, takes the keys. */
 export function isTyping(target: EventTarget | null): boolean {
   if (!(target instanceof HTMLElement)) return false;
   if (target.closest("dialog") !== null) return true;

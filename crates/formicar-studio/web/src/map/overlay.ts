@@ -1,6 +1,6 @@
-/** What lies over the path: the tightest place, the place pointed at, the vehicle that drives. */
+/** The layer over the path: the tightest point, the point under the pointer, the driving vehicle. */
 
-import { fixed, metres } from "../format";
+import { fixed, meters } from "../format";
 import { pointAt, poseOf } from "../trace";
 import { drawCar } from "./car";
 import { keepOff, label, ring } from "./marks";
@@ -23,7 +23,7 @@ export function drawTightest(sheet: Sheet, { state, plan, step }: Scene): void {
   const tightest = state.layers.clearance ? plan?.end?.tightest : null;
   if (!tightest || (step !== null && step.name !== "judged")) return;
   if (!sheet.view.shows(tightest.x, tightest.y)) return;
-  ring(sheet, tightest.x, tightest.y, metres(tightest.clearance_m));
+  ring(sheet, tightest.x, tightest.y, meters(tightest.clearance_m));
 }
 
 /** The place of the path that is pointed at, here or in the charts. */
@@ -33,7 +33,7 @@ export function drawHover(sheet: Sheet, { state, shape }: Scene): void {
   const pose = poseAt(shape, hoverM);
   drawCar(sheet, vehicle, pose, { color: sheet.colors.ink, fill: 0 });
   const clearance = clearanceAt(shape, hoverM);
-  const words = clearance === null ? "" : `, ${metres(clearance)} clear`;
+  const words = clearance === null ? "" : `, ${meters(clearance)} clear`;
   const [x, y] = sheet.view.toPx(pose[0], pose[1]);
   label(sheet, `at ${fixed(hoverM, 1)} m${words}`, [x, y - 22], sheet.colors.ink, 14);
 }

@@ -92,7 +92,7 @@ export function addFootprint(
   path.closePath();
 }
 
-/** From bumper to bumper, metres. */
+/** From bumper to bumper, meters. */
 export function lengthOf(vehicle: VehicleMessage): number {
   const xs = vehicle.footprint.map(([x]) => x);
   return xs.length > 0 ? Math.max(...xs) - Math.min(...xs) : 0;

@@ -8,9 +8,9 @@ export interface PathShape {
   x: Float64Array;
   y: Float64Array;
   heading: Float64Array;
-  /** Arc length from the start, metres. */
+  /** Arc length from the start, meters. */
   s: Float64Array;
-  /** Clearance in metres, where it is known. */
+  /** Clearance in meters, where it is known. */
   clearance: Float64Array | null;
   /** Stretches of one gear: the first and the last sample of each. */
   runs: { from: number; to: number; gear: 1 | -1 }[];
@@ -89,7 +89,7 @@ export function clearanceAt(shape: PathShape, s: number): number | null {
   return shape.clearance[b] ?? null;
 }
 
-/** The arc length nearest to a place, and how far it is off, metres. */
+/** The arc length nearest to a place, and how far it is off, meters. */
 export function nearestOn(
   shape: PathShape,
   x: number,

@@ -1,4 +1,4 @@
-/** What of a run is to be seen now: the frames up to where playback stands. */
+/** The visible part of a run: the frames up to the position of playback. */
 
 import type { DriveFrame, GenerationFrame, ImprovedFrame, Slot } from "../protocol";
 import type { Frame, PlanState, State } from "../store";
@@ -7,9 +7,9 @@ type IterationFrame = Extract<Frame, { type: "iteration" }>;
 
 /** A moment of a run. */
 export interface Moment {
-  /** How many frames have begun; null: the run is over, and its answer is shown. */
+  /** The number of frames that have begun; null: the run is over, and its answer is shown. */
   nBegun: number | null;
-  /** How far the last of them has been played, 0 to 1. */
+  /** The progress of the last of them, 0 to 1. */
   share: number;
   path: ImprovedFrame | null;
   iteration: IterationFrame | null;
@@ -17,7 +17,7 @@ export interface Moment {
   drive: DriveFrame | null;
   /** The generation of ants before. */
   driveBefore: DriveFrame | null;
-  /** Whether the ants of `drive` are still on their way. */
+  /** Whether the ants of `drive` are still moving. */
   isDriveLast: boolean;
 }
 

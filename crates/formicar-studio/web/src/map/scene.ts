@@ -12,7 +12,7 @@ export interface Scene {
   side: SlotState;
   plan: PlanState | null;
   moment: Moment;
-  /** The step of the telling; null: none is told. */
+  /** The step that is shown; null: none. */
   step: Step | null;
   /** The path that is shown. */
   shape: PathShape | null;

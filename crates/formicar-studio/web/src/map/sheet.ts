@@ -14,9 +14,9 @@ export interface Box {
 export class Sheet {
   readonly ctx: CanvasRenderingContext2D;
   dpr = 1;
-  /** Where words stand since it was cleared, pixels: others keep off. */
+  /** Rectangles of text since it was cleared, pixels, which further text avoids. */
   readonly words: Box[] = [];
-  /** Pixels of a unit of the coordinates that are drawn in: metres, cells or pixels. */
+  /** Pixels of a unit of the coordinates that are drawn in: meters, cells or pixels. */
   private unitPx = 1;
 
   constructor(
@@ -52,7 +52,7 @@ export class Sheet {
     return this.ctx;
   }
 
-  /** From here on coordinates are metres, y up. */
+  /** From here on coordinates are meters, y up. */
   inWorld(): CanvasRenderingContext2D {
     const { ctx, view, dpr } = this;
     const scale = view.pxPerM * dpr;

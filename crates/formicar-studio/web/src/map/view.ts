@@ -63,11 +63,11 @@ export class MapView {
   private readonly expanded: Expanded;
   private readonly hands: Hands;
   private readonly handles: Handles;
-  /** What the sheets that are drawn rarely were drawn from. */
+  /** The inputs of the sheets that are drawn rarely. */
   private readonly drawnFrom = new Map<Sheet, unknown[]>();
   private fitted: Int8Array | null = null;
   private isScheduled = false;
-  /** How long ants that walk over cells have been walking, seconds, and when that was counted. */
+  /** The time that ants on cells have been walking, seconds, and when it was measured. */
   private walkedS = 0;
   private walkedMs = 0;
 
@@ -173,13 +173,13 @@ export class MapView {
     stats.frameDrawn(performance.now() - started, isUnderWay || scene.state.driveS !== null);
   }
 
-  /** Ground, pheromone and cells of the telling: drawn only when they have changed. */
+  /** Map, pheromone and cells of the step: drawn only when they have changed. */
   private drawBase({ state, map, plan, moment, step }: Scene): void {
     const { base } = this;
     const bytes = state.layers.pheromone && step === null ? moment.iteration?.pheromone : undefined;
     const stages = plan?.end?.stages;
-    const told = step === null ? null : stages;
-    if (!this.isOutdated(base, [map.values, map.version, bytes, step?.name, told])) return;
+    const shown = step === null ? null : stages;
+    if (!this.isOutdated(base, [map.values, map.version, bytes, step?.name, shown])) return;
     const ctx = base.inPixels();
     ctx.fillStyle = base.colors.offMap;
     ctx.fillRect(0, 0, this.view.widthPx, this.view.heightPx);
@@ -188,7 +188,7 @@ export class MapView {
     if (step !== null && stages !== undefined) drawStageCells(base, map, stages, step.name);
   }
 
-  /** Whether a sheet must be drawn anew: for another view, other colors or another key. */
+  /** Whether a sheet must be drawn again, for another view, other colors or another key. */
   private isOutdated(sheet: Sheet, ownKey: readonly unknown[]): boolean {
     const { x, y, pxPerM } = this.view.camera;
     const key = [x, y, pxPerM, sheet.colors, ...ownKey];
@@ -198,7 +198,7 @@ export class MapView {
     return true;
   }
 
-  /** Where hybrid A* has been; where it found no way, all of it stays. */
+  /** The motions of hybrid A*; all of them stay if it found no path. */
   private drawSearch({ state, plan, moment, step }: Scene): void {
     const { frames, end } = plan ?? { frames: [], end: null };
     const nAtEnd = end !== null && !end.answer.path ? frames.length : 0;
@@ -208,7 +208,7 @@ export class MapView {
     else this.expanded.clear();
   }
 
-  /** Where the ants of an iteration went: drawn only when that has changed. */
+  /** The traffic of the ants of an iteration: drawn only when it has changed. */
   private drawWays({ state, map, moment, step }: Scene): void {
     const { ways } = this;
     const isShown = state.layers.ants && step === null && moment.nBegun !== null;

@@ -2,7 +2,7 @@
 
 import type { Actions } from "../actions";
 import { h, setText } from "../dom";
-import { degrees, fixed, metres, seconds } from "../format";
+import { degrees, fixed, meters, seconds } from "../format";
 import type { Answer, Catalog, Config, Slot } from "../protocol";
 import { answerOf, presetOf } from "../state";
 import type { SlotState, State, Store } from "../store";
@@ -19,18 +19,18 @@ interface Figure {
 }
 
 const FIGURES: readonly Figure[] = [
-  { name: "Length", of: metric("length_m"), text: metres, better: "less" },
-  { name: "Least clearance", of: metric("min_clearance_m"), text: metres, better: "more" },
-  { name: "Mean clearance", of: metric("mean_clearance_m"), text: metres, better: "more" },
+  { name: "Length", of: metric("length_m"), text: meters, better: "less" },
+  { name: "Least clearance", of: metric("min_clearance_m"), text: meters, better: "more" },
+  { name: "Mean clearance", of: metric("mean_clearance_m"), text: meters, better: "more" },
   { name: "Gear changes", of: metric("n_cusps"), text: whole, better: "less" },
-  { name: "In reverse", of: metric("reverse_length_m"), text: metres, better: "less" },
+  { name: "In reverse", of: metric("reverse_length_m"), text: meters, better: "less" },
   {
-    name: "Turned in all",
+    name: "Total turning",
     of: metric("total_turning_rad"),
     text: (value) => degrees(value, 0),
     better: "less",
   },
-  { name: "Greatest curvature", of: metric("max_curvature_per_m"), text: perMetre, better: "less" },
+  { name: "Greatest curvature", of: metric("max_curvature_per_m"), text: perMeter, better: "less" },
   { name: "Curvature jumps", of: metric("n_curvature_jumps"), text: whole, better: "less" },
   {
     name: "First path",
@@ -78,7 +78,7 @@ class Panel {
       h(
         "p",
         { class: "about" },
-        "A second planner on the same map, vehicle and request, side by side.",
+        "Runs a second planner on the same map, vehicle and request, side by side.",
       ),
       h(
         "div",
@@ -207,7 +207,7 @@ function whole(value: number): string {
   return fixed(value, 0);
 }
 
-function perMetre(value: number): string {
+function perMeter(value: number): string {
   return `${fixed(value, 3)} 1/m`;
 }
 

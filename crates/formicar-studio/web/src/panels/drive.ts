@@ -3,7 +3,7 @@
 import type { Actions } from "../actions";
 import { RATES, type DriveClock } from "../drive_clock";
 import { h, s, setText } from "../dom";
-import { degrees, fixed, metres, plural, seconds } from "../format";
+import { degrees, fixed, meters, plural, seconds } from "../format";
 import { icon } from "../icons";
 import type { DrivenMessage, DriveLaw, Slot } from "../protocol";
 import { answerOf, shownSlot } from "../state";
@@ -20,9 +20,9 @@ const LAWS: readonly (readonly [DriveLaw, string])[] = [
 
 const ABOUT: Record<DriveLaw, string> = {
   "open-loop":
-    "The path's own steering angles over the driven length; nobody looks where the vehicle is.",
-  "pure-pursuit": "Along the circle to a point ahead on the path.",
-  stanley: "The front wheels along the path, and towards it.",
+    "Applies the path's own steering angles at the driven length, without feedback.",
+  "pure-pursuit": "Follows the circle to a point ahead on the path.",
+  stanley: "Aligns the front wheels with the path and steers toward it.",
 };
 
 export function drivePanel(
@@ -98,7 +98,7 @@ class Panel {
       h(
         "p",
         { class: "about hint" },
-        "Paint an obstacle while it drives: it replans from where it is.",
+        "Paint an obstacle during the drive, and the vehicle replans from its current pose.",
       ),
     );
     store.watch(["slots", "shown", "driveS"], (state) => this.show(state));
@@ -160,7 +160,7 @@ class Panel {
     show(this.now, [
       ["Left wheel", degrees(moment.left_wheel_rad)],
       ["Right wheel", degrees(moment.right_wheel_rad)],
-      ["Beside the path", metres(moment.cross_track_error_m)],
+      ["Cross-track error", meters(moment.cross_track_error_m)],
       ["Gear", moment.direction === 1 ? "forward" : "reverse"],
     ]);
   }
@@ -192,7 +192,7 @@ class WheelGauge {
         class: "wheel-gauge",
         viewBox: "0 0 280 80",
         role: "img",
-        "aria-label": "Front wheels from above",
+        "aria-label": "Front wheels, top view",
       },
       s("line", { class: "axle", x1: 90, y1: 40, x2: 190, y2: 40 }),
       s("line", { class: "ahead", x1: 90, y1: 8, x2: 90, y2: 72 }),
@@ -215,19 +215,19 @@ function fixedAngle(radians: number): string {
 
 function outcomeOf({ tracked, contact, status }: DrivenMessage): string {
   if (contact)
-    return `It touches an obstacle at (${fixed(contact.x, 2)}, ${fixed(contact.y, 2)}) m after ${seconds(contact.t_s)}`;
+    return `The vehicle touches an obstacle at (${fixed(contact.x, 2)}, ${fixed(contact.y, 2)}) m after ${seconds(contact.t_s)}`;
   return tracked
-    ? "It arrives, and touches nothing"
-    : `It does not arrive: ${status.replace(/[_-]/g, " ")}`;
+    ? "The vehicle arrives without contact"
+    : `The vehicle does not arrive: ${status.replace(/[_-]/g, " ")}`;
 }
 
 function summaryOf({ summary, min_clearance_m }: DrivenMessage): HTMLElement[] {
   const changes = summary.n_gear_changes ?? 0;
   const facts: [string, string][] = [
-    ["Driven", `${metres(summary.driven_m)} in ${seconds(summary.duration_s)}`],
-    ["Most beside the path", metres(summary.max_cross_track_error_m)],
-    ["Off the goal by", `${metres(summary.goal_error_m)}, ${degrees(summary.goal_error_rad)}`],
-    ["Least clearance", metres(min_clearance_m)],
+    ["Driven", `${meters(summary.driven_m)} in ${seconds(summary.duration_s)}`],
+    ["Greatest cross-track error", meters(summary.max_cross_track_error_m)],
+    ["Goal error", `${meters(summary.goal_error_m)}, ${degrees(summary.goal_error_rad)}`],
+    ["Least clearance", meters(min_clearance_m)],
     ["Greatest wheel angle", degrees(summary.max_wheel_rad)],
   ];
   if (changes > 0) facts.push(["Gear changes", plural(changes, "change")]);

@@ -1,4 +1,4 @@
-/** What can be taken away: a link, the path, a picture, and the same for a terminal. */
+/** Exports: a link, the path, a picture, the command line and the configuration. */
 
 import type { Actions } from "../actions";
 import { h, setText } from "../dom";
@@ -75,7 +75,7 @@ class Panel {
         h(
           "p",
           { class: "about" },
-          "Map, vehicle, request, planners and seeds: whoever runs formicar studio sees the same.",
+          "Holds map, vehicle, request, planners and seeds. It opens in any formicar studio.",
         ),
         this.link,
       ),

@@ -1,4 +1,4 @@
-/** Which planner, its seed, and a form of all its parameters. */
+/** The choice of a planner, its seed, and a form of all its parameters. */
 
 import type { Actions } from "../actions";
 import { h, setText } from "../dom";
@@ -111,7 +111,7 @@ class Panel {
   }
 }
 
-/** What kind of planner has which sections in its configuration; the first that fits. */
+/** Kinds of planners by the sections of their configuration; the first match counts. */
 const KINDS: readonly (readonly [string, readonly string[]])[] = [
   ["Drive", ["hybrid_astar"]],
   ["Ant colonies", ["colony", "chords"]],

@@ -65,7 +65,7 @@ function poseRow(label: string, which: "start" | "goal", store: Store, set: SetP
     pose[index] = index === 2 ? value * DEGREE : value;
     set({ [which]: pose });
   };
-  const names = ["x in metres", "y in metres", "heading in degrees"];
+  const names = ["x in meters", "y in meters", "heading in degrees"];
   const inputs = names.map(
     (name, i) =>
       new NumberInput({ label: `${label}: ${name}`, step: i === 2 ? 5 : 0.1 }, (value) =>
@@ -133,7 +133,7 @@ function startHeadingRow(set: SetPart): Part {
 function curvatureRow(set: SetPart): Part {
   const rate = new NumberInput(
     {
-      label: "Greatest change of curvature",
+      label: "Greatest rate of curvature",
       min: 0,
       step: 0.05,
       isOptional: true,
@@ -148,7 +148,7 @@ function curvatureRow(set: SetPart): Part {
     ] as const,
     (mode) => set({ curvature: mode === "arcs" ? undefined : continuous(null) }),
   );
-  const rateRow = row("Changes by at most", rate.element, "1/m\u00b2");
+  const rateRow = row("At most", rate.element, "1/m\u00b2");
   const element = h("div", {}, row("Curvature", select.element), rateRow);
   const show = ({ curvature }: Readonly<Request>): void => {
     const isSmooth = typeof curvature === "object" && curvature !== null;
@@ -178,7 +178,7 @@ function toleranceRows(store: Store, set: SetPart): Part[] {
     if (value !== null) set({ goal_tolerance: { ...now(), yaw: value * DEGREE } });
   });
   return [
-    { element: row("Goal may be off by", place.element, "m"), show: () => place.show(now().xy) },
+    { element: row("Goal tolerance", place.element, "m"), show: () => place.show(now().xy) },
     {
       element: row("and turned by", heading.element, "\u00b0"),
       show: () => heading.show(rounded(now().yaw / DEGREE, 3)),

@@ -11,7 +11,7 @@ import { button, section } from "./widgets";
 
 const KINDS: Record<string, string> = {
   scene: "Scenes",
-  narrow: "Narrow places",
+  narrow: "Narrow passages",
   grid_problem: "Grid problems",
 };
 

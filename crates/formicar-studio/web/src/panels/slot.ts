@@ -1,4 +1,4 @@
-/** Which of the two compared plans a panel is about; hidden while there is one. */
+/** A label for the slot of a panel; hidden while only one plan is shown. */
 
 import type { Slot } from "../protocol";
 import { slotsOf } from "../state";

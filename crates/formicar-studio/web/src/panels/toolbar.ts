@@ -17,7 +17,7 @@ const LAYERS: readonly (readonly [keyof State["layers"], string])[] = [
   ["ants", "Ants and search"],
   ["pheromone", "Pheromone"],
   ["swept", "Swept footprints"],
-  ["clearance", "Tightest place"],
+  ["clearance", "Tightest point"],
 ];
 
 /** The brush, in cells across, between these. */
@@ -65,7 +65,7 @@ function brushSlider(store: Store): HTMLElement {
     min: 0,
     max: 100,
     step: 1,
-    "aria-label": "Width of the brush",
+    "aria-label": "Brush width",
   });
   const [least, most] = BRUSH_CELLS.map(Math.log) as [number, number];
   const cell = (): number => store.state.map?.resolution_m ?? 1;
@@ -97,7 +97,7 @@ function layerMenu(store: Store): HTMLElement {
     { class: "menu" },
     h(
       "summary",
-      { class: "icon-button", "aria-label": "What is drawn", title: "What is drawn" },
+      { class: "icon-button", "aria-label": "Layers", title: "Layers" },
       icon("layers"),
     ),
     h("div", { class: "menu-list" }, ...boxes.map(({ element }) => element)),

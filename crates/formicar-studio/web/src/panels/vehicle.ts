@@ -2,7 +2,7 @@
 
 import type { Actions } from "../actions";
 import { h, setText } from "../dom";
-import { degrees, metres } from "../format";
+import { degrees, meters } from "../format";
 import type { Catalog, JsonSchema, VehicleMessage, VehicleParameters } from "../protocol";
 import type { Store } from "../store";
 import { Fields } from "./forms/fields";
@@ -41,12 +41,12 @@ class Panel {
   private readonly figures = h("dl", { class: "facts" });
   private readonly help = new HelpLine();
   private readonly groups: { fields: Fields; element: HTMLElement }[];
-  /** The preset that was shown last: what was changed is told against it. */
+  /** The preset that was shown last; changes are marked against it. */
   private base: VehicleParameters | null = null;
   private readonly note = h(
     "p",
     { class: "about" },
-    "A holonomic point: only its center line must stay free.",
+    "A holonomic point: only the path itself must be free.",
   );
 
   constructor(
@@ -61,7 +61,7 @@ class Panel {
       this.group("Body", BODY),
       this.group("Steering limit", STEERING),
       this.group("Motion", MOTION),
-      this.group("Footprint of its own", RARE),
+      this.group("Custom footprint", RARE),
     ];
     host.append(
       h("div", { class: "section" }, row("Vehicle", this.select), this.note),
@@ -134,7 +134,7 @@ function withoutLeftOut(parameters: VehicleParameters): VehicleParameters {
   return Object.fromEntries(Object.entries(parameters).filter(([, value]) => value !== null));
 }
 
-/** What follows where a measure is left out. */
+/** The value of a measure that is left out. */
 function derivedOf(vehicle: VehicleMessage): Record<string, number | null> {
   const { max_steer_rad: steer } = vehicle;
   return {
@@ -154,13 +154,13 @@ function factsOf(vehicle: VehicleMessage): HTMLElement[] {
   if (vehicle.footprint.length > 0) {
     facts.push([
       "Length \u00d7 width",
-      `${metres(extent(along))} \u00d7 ${metres(extent(across))}`,
+      `${meters(extent(along))} \u00d7 ${meters(extent(across))}`,
     ]);
   }
   if (vehicle.min_turning_radius_m !== null)
-    facts.push(["Turning radius", metres(vehicle.min_turning_radius_m)]);
+    facts.push(["Turning radius", meters(vehicle.min_turning_radius_m)]);
   if (vehicle.max_steer_rad !== null)
-    facts.push(["Greatest steering", degrees(vehicle.max_steer_rad)]);
+    facts.push(["Greatest steering angle", degrees(vehicle.max_steer_rad)]);
   return facts.map(([term, value]) => {
     const text = h("dd", {});
     setText(text, value);

@@ -1,7 +1,7 @@
 /** The vehicle from above with its measures; handles change them. */
 
 import { s } from "../dom";
-import { degrees, metres } from "../format";
+import { degrees, meters } from "../format";
 import type { VehicleMessage, VehicleParameters } from "../protocol";
 import {
   ackermann,
@@ -43,7 +43,7 @@ export class VehicleDrawing {
       class: "vehicle-drawing",
       viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
       role: "img",
-      "aria-label": "The vehicle from above; the fields below hold the same measures",
+      "aria-label": "Top view of the vehicle; the fields below hold the same measures",
     });
   }
 
@@ -134,13 +134,13 @@ export class VehicleDrawing {
           ];
     const along = marks.flatMap(([a, b]) => {
       const [left, right] = [this.at([a, 0])[0], this.at([b, 0])[0]];
-      return measure([left, below], [right, below], metres(b - a));
+      return measure([left, below], [right, below], meters(b - a));
     });
     const aside = this.at([x0, 0])[0] - 12;
     const across = measure(
       [aside, this.at([0, y1])[1]],
       [aside, this.at([0, y0])[1]],
-      metres(y1 - y0),
+      meters(y1 - y0),
     );
     const angle = steer === null ? [] : [label([WIDTH - 6, 14], `\u00b1${degrees(steer)}`, "end")];
     return [...along, ...across, ...angle];
@@ -198,7 +198,7 @@ export class VehicleDrawing {
     element.addEventListener("pointercancel", end, { once: true });
   }
 
-  /** Where the pointer is, in metres. */
+  /** The position of the pointer, meters. */
   private world(event: PointerEvent): [number, number] {
     const box = this.element.getBoundingClientRect();
     const ratio = Math.max(WIDTH / box.width, HEIGHT / box.height);

@@ -5,7 +5,7 @@ import type { VehicleMessage, VehicleParameters } from "../protocol";
 const LEAST_M = 0.05;
 const MOST_STEER = 1.35;
 
-/** What is drawn, metres and radians, about the center of the rear axle. */
+/** The measures that are drawn, meters and radians, about the center of the rear axle. */
 export interface Measures {
   corners: [number, number][];
   wheelbase: number | null;
@@ -58,7 +58,7 @@ export function previewOf(parameters: VehicleParameters): Measures {
   };
 }
 
-/** What a handle at `place` makes of the measures. */
+/** The measures after a handle is dragged to `place`. */
 export function moved(
   which: Handle,
   start: Record<string, number>,

@@ -76,7 +76,7 @@ export interface NumberOptions {
   max?: number;
   /** Numbers that are outside all the same: the ends of an open range. */
   excluded?: readonly (number | undefined)[];
-  /** Whether it may be left empty; `change` then hears null. */
+  /** Whether it may be left empty; `change` then gets null. */
   isOptional?: boolean;
   placeholder?: string;
 }

@@ -150,7 +150,7 @@ function inOrder(entries: [string, JsonSchema][], keys: string[]): [string, Json
   return [...entries].sort(([a], [b]) => place(a) - place(b));
 }
 
-/** Whether its description says no more than its name. */
+/** Whether the description adds nothing to the name. */
 function isPlain({ name, about }: Variant): boolean {
   return about.replace(/\.$/, "").toLowerCase() === labelOf(name).toLowerCase();
 }

@@ -102,7 +102,7 @@ export class Form {
   }
 }
 
-/** What is said of the field that is pointed at, in a place that does not move. */
+/** The help of the field under the pointer, in a fixed position. */
 export class HelpLine {
   readonly element: HTMLElement;
   private readonly path = h("code", {});
@@ -116,7 +116,7 @@ export class HelpLine {
       h("div", {}, this.path, this.range),
       this.text,
     );
-    this.text.textContent = "Point at a parameter to read what it does.";
+    this.text.textContent = "Point at a parameter to read its description.";
   }
 
   show(help: Help): void {

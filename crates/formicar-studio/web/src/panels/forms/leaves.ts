@@ -105,7 +105,7 @@ function read(text: string): unknown {
   }
 }
 
-/** What the arrow keys add: a tenth of what is usual, as a power of ten. */
+/** The step of the arrow keys: a tenth of the default, as a power of ten. */
 function stepOf(range: Range, usual: unknown): number {
   const size = typeof usual === "number" && usual !== 0 ? Math.abs(usual) : (range.max ?? 1);
   return Math.min(10 ** Math.floor(Math.log10(Math.min(size, 1e6)) - 0.3), 10);

@@ -1,4 +1,4 @@
-/** What every field of a form is made of: a row that marks what was changed and takes it back. */
+/** The row of a form field: it marks a changed value and resets it. */
 
 import { freshId, h } from "../../dom";
 import { count, plain } from "../../format";
@@ -7,14 +7,14 @@ import { iconButton } from "../widgets";
 import { isSame } from "./same";
 import { helpOf, labelOf, rangeOf, shapeOf } from "./schema";
 
-/** What is said of a field that is pointed at. */
+/** The help of a field. */
 export interface Help {
   path: string;
   text: string;
   range: string;
 }
 
-/** What all fields of a form share. */
+/** The part that all fields of a form share. */
 export interface Context {
   root: JsonSchema;
   /** Hears which field is pointed at. */
@@ -29,7 +29,7 @@ export interface Field {
   hint?(value: number | null): void;
 }
 
-/** What a field is built from. */
+/** The parts of a field. */
 export interface Parts {
   key: string;
   /** Its schema, with references followed. */

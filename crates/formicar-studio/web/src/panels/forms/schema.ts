@@ -1,14 +1,14 @@
-/** What a form needs to know of a JSON schema: which kind of value, its range, unit and help. */
+/** A JSON schema as a form needs it: kind of value, range, unit and help. */
 
 import type { JsonSchema } from "../../protocol";
 
-/** One of several shapes; told apart by the field `rule`, or by a word standing for itself. */
+/** One of several shapes; distinguished by the field `rule`, or by a word standing for itself. */
 export interface Variant {
   name: string;
   about: string;
   /** The fields besides `rule`; none for a word. */
   fields: [string, JsonSchema][];
-  /** How the variant is written: `{rule: name, ...}`, `name`, or `{name: value}`. */
+  /** The form of the variant: `{rule: name, ...}`, `name`, or `{name: value}`. */
   writing: "tagged" | "word" | "wrapped";
 }
 
@@ -72,7 +72,7 @@ export function shapeOf(schema: JsonSchema, root: JsonSchema): Shape {
   return { kind: "other" };
 }
 
-/** Whether a value may be left out, and nothing takes its place. */
+/** Whether a value may be left out without a default. */
 export function isNullable(schema: JsonSchema): boolean {
   const types = schema.type === undefined ? [] : [schema.type].flat();
   return types.includes("null") || (schema.anyOf ?? []).some((option) => option.type === "null");
@@ -127,7 +127,7 @@ export function valueOf(variant: Variant, root: JsonSchema): unknown {
   return variant.writing === "tagged" ? { rule: variant.name, ...value } : value;
 }
 
-/** Which of the variants a value is. */
+/** The variant of a value. */
 export function variantIn(value: unknown, variants: readonly Variant[]): Variant | undefined {
   const name = typeof value === "string" ? value : nameOf(value);
   return variants.find((variant) => variant.name === name) ?? variants[0];

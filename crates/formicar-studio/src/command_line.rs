@@ -1,4 +1,4 @@
-//! A request as a line for a terminal and as a configuration file.
+//! The command line and the configuration file that repeat a plan.
 
 use formicar::planner::{Answer, PlannerConfig, RequestDocument};
 use formicar::scenario::CurvatureMode;
@@ -10,8 +10,8 @@ pub(crate) fn toml(config: &PlannerConfig) -> String {
     toml::to_string(config).unwrap_or_else(|error| format!("# {error}\n"))
 }
 
-/// The command that asks the same, where the map is a built-in or the file `map`, and the vehicle
-/// a preset or the file `vehicle.json`.
+/// The command that plans the same. `map` is a built-in map or a file; a vehicle that is no preset
+/// is the file `vehicle.json`.
 pub(crate) fn line(answer: &Answer, request: &RequestDocument, map: &str, seed: u64) -> String {
     let provenance = &answer.provenance;
     let vehicle = match provenance.vehicle.name.as_str() {
@@ -23,14 +23,14 @@ pub(crate) fn line(answer: &Answer, request: &RequestDocument, map: &str, seed: 
         quoted(map),
         quoted(vehicle)
     )];
-    words.extend(asked(request));
+    words.extend(request_flags(request));
     words.push(format!("--planner {} --seed {seed}", answer.planner));
     words.push(settings(&provenance.config));
     words.join(" ").trim_end().to_owned()
 }
 
-/// The flags of a request; what it leaves out is left out here.
-fn asked(request: &RequestDocument) -> Vec<String> {
+/// The flags of the fields that a request sets.
+fn request_flags(request: &RequestDocument) -> Vec<String> {
     let pose = |flag: &str, [x, y, heading]: [f64; 3]| format!("{flag}={x:?},{y:?},{heading:?}");
     let goals = request.goal.into_iter();
     let goals = goals.chain(request.goals.iter().flatten().copied());
@@ -60,13 +60,13 @@ fn asked(request: &RequestDocument) -> Vec<String> {
         .collect()
 }
 
-/// A flag whose value is a word.
+/// A flag with the value as a word.
 fn word(flag: &str, value: Option<impl Serialize>) -> Option<String> {
     let word = serde_json::to_value(value?).ok()?;
     Some(format!("{flag} {}", word.as_str()?))
 }
 
-/// What makes the defaults of a planner its configuration: single keys where that suffices.
+/// The flags that turn the defaults of a planner into a configuration: single keys if possible.
 fn settings(config: &PlannerConfig) -> String {
     let values = [config, &PlannerConfig::of(config.planner)].map(serde_json::to_value);
     let [Ok(own), Ok(default)] = values else {
@@ -79,7 +79,7 @@ fn settings(config: &PlannerConfig) -> String {
     }
 }
 
-/// Collects `--set` flags; none where something differs that no single key can say.
+/// Collects `--set` flags; none if some difference cannot be set by a single key.
 fn differences(key: &str, own: &Json, default: &Json, sets: &mut Vec<String>) -> Option<()> {
     match (own, default) {
         _ if own == default => {}
@@ -116,7 +116,7 @@ mod tests {
     use formicar::planner::PlannerName;
 
     #[test]
-    fn only_what_differs_is_said() {
+    fn only_differences_are_set() {
         let mut config = PlannerConfig::of(PlannerName::Lei2020);
         assert_eq!(settings(&config), "");
         config.colony.n_ants = 17;
@@ -126,14 +126,14 @@ mod tests {
     }
 
     #[test]
-    fn all_that_was_asked_is_said() {
+    fn all_fields_of_a_request_become_flags() {
         let request = r#"{"start": [1, 2, 0], "goal": [3.5, -4, 1], "motion": "forward",
             "goal_heading": "any", "goal_tolerance": {"xy": 0.2, "yaw": 0.1}, "deadline_ms": 500,
             "budget_steps": 900, "curvature": {"continuous": {"max_rate_per_m2": 0.5}}}"#;
         let request: RequestDocument = serde_json::from_str(request).unwrap();
-        let said = "--start=1.0,2.0,0.0 --goal=3.5,-4.0,1.0 --motion forward --goal-heading any \
+        let flags = "--start=1.0,2.0,0.0 --goal=3.5,-4.0,1.0 --motion forward --goal-heading any \
             --goal-tolerance=0.2,0.1 --continuous-curvature=0.5 --deadline 500 --budget 900";
-        assert_eq!(asked(&request).join(" "), said);
+        assert_eq!(request_flags(&request).join(" "), flags);
     }
 
     #[test]

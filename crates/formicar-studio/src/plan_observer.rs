@@ -1,7 +1,8 @@
-//! Watches a plan for a page: what happens becomes frames, sent while the plan goes on.
+//! The observer of a plan: it sends what happens to the page as frames while the plan goes on.
 
 use crate::outbox::Outbox;
 use crate::protocol::{ServerMessage, Slot};
+use crate::wanted::WantedPlans;
 use formicar::geometry::{Arc, Point2, Pose2};
 use formicar::map::{Cell, GridFrame};
 use formicar::path::{CurvePath, Direction};
@@ -9,52 +10,51 @@ use formicar::progress::{
     AntFrame, ColonyView, DriveView, DriveWay, Event, Observer, PopulationView, ReachedView,
     Traffic,
 };
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 /// Distance between points of a path or way that is sent, metres.
 const SPACING_M: f64 = 0.25;
-/// Most motions of hybrid A* that are sent.
+/// The most motions of hybrid A* that are sent.
 const MAX_MOTIONS: usize = 60_000;
-/// Most bytes of pheromone that are sent in iterations as close to each other as those before.
+/// Bytes of pheromone after which only every second of the iterations sent so far is sent.
 const STRIDE_BYTES: usize = 8 << 20;
 
-/// Which plan is watched, and for whom.
+/// A plan that a client waits for.
 #[derive(Clone, Copy)]
-pub(crate) struct Watched<'a> {
+pub(crate) struct PlanTicket<'a> {
     pub(crate) plan: u64,
     pub(crate) slot: Slot,
-    /// Whether frames of ants are wanted.
+    /// Whether the client wants frames of the search.
     pub(crate) with_frames: bool,
-    /// Number of the newest plan that was asked for in the slot.
-    pub(crate) newest: &'a AtomicU64,
+    pub(crate) wanted: &'a WantedPlans,
     pub(crate) outbox: &'a Outbox,
 }
 
-impl Watched<'_> {
-    /// Whether somebody still waits for it.
+impl PlanTicket<'_> {
+    /// Whether the client still waits for it.
     pub(crate) fn is_wanted(&self) -> bool {
-        self.newest.load(Ordering::Relaxed) == self.plan && !self.outbox.is_closed()
+        self.wanted.is_newest(self.slot, self.plan) && !self.outbox.is_closed()
     }
 }
 
 /// The observer of a plan.
-pub(crate) struct Watcher<'a> {
-    watched: Watched<'a>,
+pub(crate) struct PlanObserver<'a> {
+    ticket: PlanTicket<'a>,
     frame: GridFrame,
     begun: Instant,
     first: Option<Duration>,
     n_motions: usize,
-    /// Every so many iterations are sent, and so many were since that has changed.
+    /// Every `stride`-th iteration is sent.
     stride: u32,
+    /// Iterations sent with this stride.
     n_sent: usize,
 }
 
-impl<'a> Watcher<'a> {
-    /// Begins now.
-    pub(crate) fn new(watched: Watched<'a>, frame: GridFrame) -> Self {
+impl<'a> PlanObserver<'a> {
+    /// An observer of a plan that begins now.
+    pub(crate) fn new(ticket: PlanTicket<'a>, frame: GridFrame) -> Self {
         Self {
-            watched,
+            ticket,
             frame,
             begun: Instant::now(),
             first: None,
@@ -64,7 +64,7 @@ impl<'a> Watcher<'a> {
         }
     }
 
-    /// Seconds until the first certified path, if there was one, and until now.
+    /// Times since the plan began: to the first certified path, if there was one, and to now, seconds.
     pub(crate) fn times_s(&self) -> (Option<f64>, f64) {
         let first_s = self.first.map(|first| first.as_secs_f64());
         (first_s, self.begun.elapsed().as_secs_f64())
@@ -86,17 +86,17 @@ impl<'a> Watcher<'a> {
             ]
         });
         let message = ServerMessage::Improved {
-            plan: self.watched.plan,
-            slot: self.watched.slot,
+            plan: self.ticket.plan,
+            slot: self.ticket.slot,
             length_m: path.length_m(),
             n_steps,
             at_ms: at.as_secs_f64() * 1e3,
             poses: poses.collect(),
         };
-        self.watched.outbox.put(message.text());
+        self.ticket.outbox.put(message.text());
     }
 
-    /// Sends fewer of a colony's iterations the more there are.
+    /// Sends the fewer of a colony's iterations, the more there are.
     fn iteration(&mut self, view: &ColonyView) {
         if view.record.iteration == 0 {
             (self.stride, self.n_sent) = (1, 0);
@@ -110,11 +110,8 @@ impl<'a> Watcher<'a> {
             self.stride = self.stride.saturating_mul(2);
             self.n_sent = 0;
         }
-        let (plan, size) = (
-            self.watched.plan,
-            (self.frame.n_cols(), self.frame.n_rows()),
-        );
-        self.watched.outbox.put_frame(|| {
+        let (plan, size) = (self.ticket.plan, (self.frame.n_cols(), self.frame.n_rows()));
+        self.ticket.outbox.put_frame(|| {
             let frame = AntFrame::of(view, size);
             let best = frame.best.as_ref();
             let message = ServerMessage::Iteration {
@@ -135,9 +132,9 @@ impl<'a> Watcher<'a> {
             lines.map(|(line, _)| cells(line)).collect()
         };
         let best = view.best.and_then(|best| view.lines.get(best));
-        self.watched.outbox.put_frame(|| {
+        self.ticket.outbox.put_frame(|| {
             let message = ServerMessage::Generation {
-                plan: self.watched.plan,
+                plan: self.ticket.plan,
                 record: view.record,
                 free: lines(true),
                 colliding: lines(false),
@@ -153,9 +150,9 @@ impl<'a> Watcher<'a> {
             let ways = ways.filter(move |way| way.died_at.is_none() == has_arrived);
             ways.map(|way| self.polyline(way)).collect()
         };
-        self.watched.outbox.put_frame(|| {
+        self.ticket.outbox.put_frame(|| {
             let message = ServerMessage::Drive {
-                plan: self.watched.plan,
+                plan: self.ticket.plan,
                 generation: view.generation,
                 n_steps: view.n_steps,
                 arrived: ways(true),
@@ -174,9 +171,9 @@ impl<'a> Watcher<'a> {
             let ends = [from.position(), arc.end_from(from).position()];
             ends.map(|end| self.world(end)).concat()
         };
-        self.watched.outbox.put_frame(|| {
+        self.ticket.outbox.put_frame(|| {
             let message = ServerMessage::Expanded {
-                plan: self.watched.plan,
+                plan: self.ticket.plan,
                 n_steps: view.n_steps,
                 motions: view.motions.iter().flat_map(motion).collect(),
             };
@@ -191,19 +188,19 @@ impl<'a> Watcher<'a> {
         points.flatten().collect()
     }
 
-    /// World coordinates of a place in the grid's.
-    fn world(&self, place: Point2) -> [f64; 2] {
-        let world = self.frame.to_world(Pose2::at(place, 0.0));
+    /// The world coordinates of a point in grid coordinates.
+    fn world(&self, point: Point2) -> [f64; 2] {
+        let world = self.frame.to_world(Pose2::at(point, 0.0));
         [rounded(world.x), rounded(world.y)]
     }
 }
 
-impl Observer for Watcher<'_> {
+impl Observer for PlanObserver<'_> {
     fn on_event(&mut self, event: &Event) {
         if let Event::Improved { path, n_steps, .. } = event {
             return self.improved(path, *n_steps);
         }
-        if !self.watched.with_frames {
+        if !self.ticket.with_frames {
             return;
         }
         match event {
@@ -220,20 +217,20 @@ impl Observer for Watcher<'_> {
     }
 
     fn is_cancelled(&mut self) -> bool {
-        !self.watched.is_wanted()
+        !self.ticket.is_wanted()
     }
 
     fn watches_search(&self) -> bool {
-        self.watched.with_frames
+        self.ticket.with_frames
     }
 }
 
-/// To the tenth of a millimetre: what is drawn needs no more, and is shorter so.
+/// Rounds to a tenth of a millimeter, which is enough to draw and shortens messages.
 fn rounded(value: f64) -> f64 {
     (value * 1e4).round() / 1e4
 }
 
-/// Columns and rows in turn.
+/// Columns and rows, alternating.
 pub(crate) fn cells<'a>(cells: impl IntoIterator<Item = &'a Cell>) -> Vec<u32> {
     let pairs = cells.into_iter().flat_map(|cell| [cell.col, cell.row]);
     pairs.collect()
@@ -247,8 +244,7 @@ fn passages(traffic: &[Traffic]) -> Vec<u32> {
     passages.collect()
 }
 
-/// Pheromone as shades of 1 to 255, logarithmic between the least and the most; 0 where no ant
-/// can go.
+/// Pheromone as shades from 1 to 255, logarithmic between its extremes; 0 where no ant can go.
 fn shades(pheromone: &[f32]) -> Vec<u8> {
     let known = pheromone
         .iter()

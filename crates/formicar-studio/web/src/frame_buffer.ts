@@ -1,4 +1,4 @@
-/** Frames of a run, kept for playback: evenly thinned where they would be too many. */
+/** The frames of a run, kept for playback; too many are thinned evenly. */
 
 import type { Frame } from "./store";
 
@@ -9,7 +9,7 @@ const MAX_MOTION_NUMBERS = 1 << 21;
 
 /** Fills a list of frames that stays bounded. The newest of each kind is always there; paths are
  * few and are all kept, and motions are passed on to the frame that stays. */
-export class Reel {
+export class FrameBuffer {
   private stride = 1;
   private readonly nSeen: Partial<Record<Frame["type"], number>> = {};
   /** Places of the frames among those of their kind. */

@@ -1,47 +1,47 @@
-/** The papers told on the map, step by step: obstacles, U-shapes, the way, its nodes, the arcs. */
+/** A plan shown step by step on the map: obstacles, U-shapes, the path over cells, its nodes, the arcs. */
 
-import "./telling.css";
+import "./stepper.css";
 
 import { h, setText } from "./dom";
 import { icon } from "./icons";
 import { stepsOf, type Step } from "./steps";
 import type { State, Store } from "./store";
 
-export class Telling {
+export class Stepper {
   private readonly open = h(
     "button",
-    { type: "button", class: "button quiet teller-open" },
+    { type: "button", class: "button quiet stepper-open" },
     icon("steps"),
     "Step by step",
   );
   private readonly card = h("section", {
-    class: "teller-card",
+    class: "stepper-card",
     "aria-label": "The plan step by step",
   });
-  private readonly dots = h("ol", { class: "teller-dots" });
+  private readonly dots = h("ol", { class: "stepper-dots" });
   private readonly title = h("b", {});
   private readonly sentence = h("span", {});
-  private readonly back = this.arrow("Step before", "teller-back", -1);
-  private readonly next = this.arrow("Next step", "teller-next", 1);
-  private told = "";
+  private readonly back = this.arrow("Previous step", "stepper-back", -1);
+  private readonly next = this.arrow("Next step", "stepper-next", 1);
+  private shown = "";
 
   constructor(
     host: HTMLElement,
     private readonly store: Store,
   ) {
-    const close = h("button", { type: "button", "aria-label": "End the telling" }, icon("close"));
+    const close = h("button", { type: "button", "aria-label": "End the steps" }, icon("close"));
     close.addEventListener("click", () => this.end());
     this.open.addEventListener("click", () => this.go(0));
     const words = h(
       "p",
-      { class: "teller-words", "aria-live": "polite" },
+      { class: "stepper-words", "aria-live": "polite" },
       this.title,
       " ",
       this.sentence,
     );
     this.card.append(this.dots, close, this.back, words, this.next);
     this.card.addEventListener("keydown", (event) => this.key(event));
-    host.append(h("div", { class: "teller" }, this.open, this.card));
+    host.append(h("div", { class: "stepper" }, this.open, this.card));
     store.watch(["slots", "shown", "map", "step"], (state) => this.update(state));
   }
 
@@ -51,11 +51,11 @@ export class Telling {
 
   private update(state: Readonly<State>): void {
     const steps = this.steps(state);
-    const isTold = state.step !== null && steps.length > 0;
-    this.card.hidden = !isTold;
-    this.open.hidden = isTold;
+    const isShown = state.step !== null && steps.length > 0;
+    this.card.hidden = !isShown;
+    this.open.hidden = isShown;
     this.open.disabled = steps.length === 0;
-    if (!isTold) return;
+    if (!isShown) return;
     const at = Math.min(state.step ?? 0, steps.length - 1);
     const step = steps[at];
     if (step === undefined) return;
@@ -69,8 +69,8 @@ export class Telling {
   /** A dot for each step, which leads there. */
   private mark(steps: readonly Step[], at: number): void {
     const key = steps.map(({ name }) => name).join();
-    if (key !== this.told) {
-      this.told = key;
+    if (key !== this.shown) {
+      this.shown = key;
       const dots = steps.map(({ title }, i) => {
         const dot = h("button", {
           type: "button",

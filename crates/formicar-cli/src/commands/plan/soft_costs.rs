@@ -1,22 +1,22 @@
-//! Soft costs: where the vehicle should rather not drive.
+//! Soft costs: areas that the vehicle avoids where it can.
 
-use crate::args::PlanArgs;
-use crate::ground::Ground;
+use super::args::PlanArgs;
+use crate::scene::Scene;
 use anyhow::{Context, Result, bail};
 use formicar::layers::SoftCosts;
 use formicar::map::format::{ReadOptions, read_map};
 use formicar::planner::{PlannerName, SoftCostsRecord};
 use std::path::Path;
 
-/// What soft costs weigh where nothing else is asked for.
+/// Default of `--soft-weight`.
 const DEFAULT_WEIGHT: f64 = 3.0;
-/// The word for the map's own graded cells.
+/// The value of `--soft-costs` that means the map's own graded cells.
 const OF_MAP: &str = "map";
 
-/// The soft costs that the flags name, noted in the story of the map.
+/// The soft costs that the flags name; they are noted in the record of the map.
 pub(crate) fn load(
     args: &PlanArgs,
-    ground: &mut Ground,
+    scene: &mut Scene,
     planner: PlannerName,
 ) -> Result<Option<SoftCosts>> {
     let Some(name) = &args.soft_costs else {
@@ -24,22 +24,22 @@ pub(crate) fn load(
     };
     if !planner.heeds_soft_costs() {
         bail!(
-            "--soft-costs: {} does not weigh the ground; hint: --planner formicar",
+            "--soft-costs: {} does not use soft costs; hint: --planner formicar",
             planner.name()
         );
     }
     let weight = args.soft_weight.unwrap_or(DEFAULT_WEIGHT);
     let costs = if name == OF_MAP {
-        SoftCosts::from_graded(&ground.map, weight)
+        SoftCosts::from_graded(&scene.map, weight)
     } else {
         let options = ReadOptions {
-            resolution_m: args.ground.resolution,
+            resolution_m: args.scene.resolution,
         };
         let map = read_map(Path::new(name), &options).context("--soft-costs")?;
         SoftCosts::from_graded(&map, weight)
     };
     let costs = costs.context("--soft-weight")?;
-    ground.record.soft_costs = Some(SoftCostsRecord {
+    scene.record.soft_costs = Some(SoftCostsRecord {
         name: name.clone(),
         weight,
     });

@@ -1,4 +1,4 @@
-//! A path as it stands in a file: an answer of ours, or samples of anybody's.
+//! A path read from a file: an answer of ours, or samples from any source.
 
 use crate::files;
 use anyhow::{Context, Result, anyhow};
@@ -13,10 +13,10 @@ use formicar::vehicle::{Motion, Vehicle};
 use serde::Serialize;
 use std::path::Path;
 
-/// Where a path comes from.
+/// The kind of a path file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub(super) enum Source {
+pub(crate) enum Source {
     /// The segments of an answer.
     Segments,
     /// Poses with headings: arcs and gears reconstructed.
@@ -25,26 +25,26 @@ pub(super) enum Source {
     Points,
 }
 
-/// A path, and what is on record about it.
-pub(super) struct Subject {
-    pub(super) path: CurvePath,
+/// A path and the record that its file holds about it.
+pub(crate) struct PathFile {
+    pub(crate) path: CurvePath,
     /// The same points driven with the gears exchanged, where they may be.
     exchanged: Option<CurvePath>,
-    pub(super) source: Source,
-    pub(super) sample_deviation_m: f64,
+    pub(crate) source: Source,
+    pub(crate) sample_deviation_m: f64,
     request: Option<Request>,
-    pub(super) poses: Option<Vec<PoseRecord>>,
-    pub(super) hashes: Option<CertificateHashes>,
-    pub(super) numbers: Option<CertificateNumbers>,
+    pub(crate) poses: Option<Vec<PoseRecord>>,
+    pub(crate) hashes: Option<CertificateHashes>,
+    pub(crate) numbers: Option<CertificateNumbers>,
 }
 
 /// Reads a path; the name `-` is stdin.
-pub(super) fn read(path: &Path, vehicle: &Vehicle) -> Result<Subject> {
+pub(crate) fn read(path: &Path, vehicle: &Vehicle) -> Result<PathFile> {
     let text = files::read_document(path)?;
     let name = || path.display().to_string();
     if text.trim_start().starts_with('{') {
         let stored = StoredPath::from_json(&text).with_context(name)?;
-        return Ok(Subject {
+        return Ok(PathFile {
             path: stored.path,
             exchanged: None,
             source: Source::Segments,
@@ -65,7 +65,7 @@ pub(super) fn read(path: &Path, vehicle: &Vehicle) -> Result<Subject> {
             samples.path(Direction::Reverse),
         ),
     };
-    Ok(Subject {
+    Ok(PathFile {
         path: path.ok_or_else(|| anyhow!("no poses")).with_context(name)?,
         exchanged,
         source: match samples.headings {
@@ -80,9 +80,9 @@ pub(super) fn read(path: &Path, vehicle: &Vehicle) -> Result<Subject> {
     })
 }
 
-impl Subject {
+impl PathFile {
     /// Share by which the curvature may exceed the vehicle's limit.
-    pub(super) fn curvature_slack(&self) -> f64 {
+    pub(crate) fn curvature_slack(&self) -> f64 {
         match self.source {
             Source::Segments => CURVATURE_TOLERANCE,
             Source::Poses | Source::Points => FOREIGN_CURVATURE_SLACK,
@@ -91,7 +91,7 @@ impl Subject {
 
     /// The path with the judge's findings. Points do not tell the gears: of their two ways the
     /// second is taken where it alone is valid.
-    pub(super) fn judged(
+    pub(crate) fn judged(
         &self,
         obstacles: &ObstacleMap,
         vehicle: &Vehicle,

@@ -1,4 +1,4 @@
-/** Painted maps, kept by the server under the hash of their content. */
+/** Edited maps that the server keeps under the hash of their content. */
 
 import type { Connection } from "./connection";
 import type { MapState } from "./store";
@@ -8,7 +8,7 @@ interface Waiting {
   failed: (why: Error) => void;
 }
 
-export class Keeping {
+export class MapKeeper {
   /** The state of the map that was kept last. */
   private kept: { values: Int8Array; version: number; hash: string } | null = null;
   private readonly waiting: Waiting[] = [];
@@ -27,17 +27,17 @@ export class Keeping {
         resolve(hash);
       };
       this.waiting.push({ done, failed });
-      if (!this.connection.send({ type: "keep_map" })) this.refuse("the server is not there");
+      if (!this.connection.send({ type: "keep_map" })) this.reject("there is no connection to the server");
     });
   }
 
-  /** The server has kept a map: the one that was asked for first. */
-  came(hash: string): void {
+  /** The server has kept the map of the oldest request. */
+  resolve(hash: string): void {
     this.waiting.shift()?.done(hash);
   }
 
-  /** Nothing that is waited for will come. */
-  refuse(why: string): void {
+  /** All requests have failed. */
+  reject(why: string): void {
     for (const { failed } of this.waiting.splice(0)) failed(new Error(`map not kept: ${why}`));
   }
 }

@@ -1,7 +1,7 @@
 //! `plan --stdin`: a request per line, an answer per line, one warm planner.
 
-use super::plan::Session;
 use crate::failure::{Ending, Failure};
+use crate::session::Session;
 use anyhow::{Context, Result};
 use formicar::numeric::Seed;
 use formicar::planner::{Answer, RequestDocument};
@@ -10,7 +10,7 @@ use std::io::{BufRead, Read, Write};
 /// The longest line that is read, bytes.
 const MAX_LINE: u64 = 1 << 20;
 
-/// Answers until the input ends. A bad line gets an answer that says so; the session goes on.
+/// Answers requests until the input ends. A malformed line gets an answer with the reason.
 pub(super) fn run(
     session: &mut Session,
     defaults: &RequestDocument,
@@ -58,24 +58,24 @@ fn parse(line: &[u8]) -> Result<RequestDocument, String> {
     }
     let refused = |why: String| {
         format!(
-            "no request: {why}; hint: {{\"start\": [x, y, heading], \"goal\": [x, y, heading]}}"
+            "not a request: {why}; hint: {{\"start\": [x, y, heading], \"goal\": [x, y, heading]}}"
         )
     };
-    // A list would be taken for the fields in their order, an empty one for all defaults.
+    // Serde would read a list as the fields in their order, an empty one as all defaults.
     if !line.trim_ascii_start().starts_with(b"{") {
-        return Err(refused("it is no JSON object".to_owned()));
+        return Err(refused("it is not a JSON object".to_owned()));
     }
     serde_json::from_slice(line).map_err(|e| refused(e.to_string()))
 }
 
-/// The id of a line that is no request, as far as it is JSON: whoever asked can tell which it was.
+/// The id of a line that is valid JSON but not a request, so that the caller can match the answer.
 fn id_of(line: &[u8]) -> Option<serde_json::Value> {
     let line = line.get(..line.len().min(MAX_LINE as usize))?;
     let value: serde_json::Value = serde_json::from_slice(line).ok()?;
     value.get("id").cloned()
 }
 
-/// The next line without holding more than [`MAX_LINE`] bytes of it and one to tell.
+/// The next line; of a longer one, [`MAX_LINE`] bytes and one more, which shows the excess.
 fn next_line(input: &mut impl BufRead) -> std::io::Result<Option<Vec<u8>>> {
     let mut line = Vec::new();
     input

@@ -2,14 +2,14 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Reel } from "../src/reel.ts";
+import { FrameBuffer } from "../src/frame_buffer.ts";
 
 test("a long run is thinned evenly, and the newest frame and every path stay", () => {
   const frames = [];
-  const reel = new Reel(frames);
+  const buffer = new FrameBuffer(frames);
   for (let n = 0; n < 5000; n += 1) {
-    reel.push({ type: "drive", n });
-    if (n % 500 === 0) reel.push({ type: "improved", n });
+    buffer.push({ type: "drive", n });
+    if (n % 500 === 0) buffer.push({ type: "improved", n });
   }
   assert.ok(frames.length <= 200);
   const drives = frames.filter(({ type }) => type === "drive").map(({ n }) => n);
@@ -22,8 +22,8 @@ test("a long run is thinned evenly, and the newest frame and every path stay", (
 
 test("motions of frames that go are passed on", () => {
   const frames = [];
-  const reel = new Reel(frames);
-  for (let n = 0; n < 1000; n += 1) reel.push({ type: "expanded", motions: [n, n, n, n] });
+  const buffer = new FrameBuffer(frames);
+  for (let n = 0; n < 1000; n += 1) buffer.push({ type: "expanded", motions: [n, n, n, n] });
   const motions = frames.flatMap((frame) => frame.motions.filter((_, i) => i % 4 === 0));
   assert.deepEqual(motions, Array.from({ length: 1000 }, (_, n) => n));
 });

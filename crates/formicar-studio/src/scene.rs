@@ -1,4 +1,4 @@
-//! What a visitor plans on: a map that may be painted on, and a vehicle.
+//! The scene of a client: a map that it may edit, and a vehicle.
 
 use crate::maps::{OpenMap, list};
 use crate::protocol::{Region, ServerMessage, VehicleChoice};
@@ -9,26 +9,26 @@ use formicar::planner::{MapRecord, Planner};
 use formicar::vehicle::{Motion, Vehicle};
 use std::sync::Arc;
 
-/// The vehicle of a map that was made for none.
+/// The vehicle for maps that name none.
 const DEFAULT_VEHICLE: &str = "warehouse_amr";
-/// What one's own vehicle is called.
+/// The name of a vehicle that is no preset.
 const OWN: &str = "own";
 
 /// A map and a vehicle.
-pub(crate) struct Ground {
+pub(crate) struct Scene {
     pub(crate) opened: Arc<OpenMap>,
-    /// The map as it is now.
+    /// The map with all edits.
     pub(crate) grid: OccupancyGrid,
-    /// The same prepared for queries.
+    /// The same map, prepared for queries.
     pub(crate) obstacles: Arc<ObstacleMap>,
     pub(crate) is_edited: bool,
     pub(crate) vehicle: Vehicle,
     pub(crate) vehicle_name: String,
 }
 
-impl Ground {
-    /// A map as it was opened, with the vehicle that it is made for; one made for none is for the
-    /// vehicle that was there before.
+impl Scene {
+    /// A map as it was opened, with the vehicle that it names; a map that names none takes the
+    /// vehicle from before.
     pub(crate) fn new(opened: Arc<OpenMap>, before: Option<Self>) -> Self {
         let preset = |name: &str| (Vehicle::preset(name).ok(), name.to_owned());
         let (vehicle, vehicle_name) = match (opened.builtin, before) {
@@ -46,10 +46,10 @@ impl Ground {
         }
     }
 
-    /// Another vehicle.
+    /// Changes the vehicle.
     ///
     /// # Errors
-    /// A name that no preset has, or measures that make no vehicle.
+    /// An unknown preset, or invalid measures.
     pub(crate) fn set_vehicle(&mut self, choice: &VehicleChoice) -> Result<(), String> {
         let (name, vehicle) = match choice {
             VehicleChoice::Preset(name) => (name.as_str(), Vehicle::preset(name)),
@@ -60,10 +60,10 @@ impl Ground {
         Ok(())
     }
 
-    /// Puts values into a rectangle, here and in the maps of planners.
+    /// Sets the values of a rectangle, here and in the maps of planners.
     ///
     /// # Errors
-    /// A rectangle off the map, another number of values than cells, or a value that is none.
+    /// A rectangle off the map, a wrong number of values, or an invalid value.
     pub(crate) fn paint<'a>(
         &mut self,
         region: Region,
@@ -91,7 +91,7 @@ impl Ground {
         Ok(())
     }
 
-    /// The map's story.
+    /// The record of the map for answers.
     pub(crate) fn record(&self) -> MapRecord {
         MapRecord {
             name: self.opened.name.clone(),
@@ -100,7 +100,7 @@ impl Ground {
         }
     }
 
-    /// What `--map` reads.
+    /// The value of `--map` that stands for this map.
     pub(crate) fn file(&self) -> &str {
         match self.opened.builtin {
             Some(map) if !self.is_edited => map.name,

@@ -1,32 +1,33 @@
-//! From flags to a map, a vehicle, and what they suggest to ask.
+//! The scene of a command: a map, a vehicle, and the start and goal that come with them.
 
-use crate::args::GroundArgs;
-use crate::files::{self, ScenarioFile};
-use anyhow::{Context, Result, bail};
+mod args;
+mod scenario_file;
+mod vehicle;
+
+pub(crate) use args::SceneArgs;
+pub(crate) use scenario_file::ScenarioFile;
+pub(crate) use vehicle::by_name as vehicle;
+
+use anyhow::{Result, bail};
+use args::Polygon;
 use formicar::geometry::Pose2;
 use formicar::map::builtin::BuiltinMap;
 use formicar::map::format::{ReadOptions, read_map};
 use formicar::map::{OCCUPIED, OccupancyGrid, UnknownPolicy};
 use formicar::planner::MapRecord;
-use formicar::vehicle::Vehicle;
+use scenario_file::Loaded;
 use std::path::Path;
+use vehicle::NamedVehicle;
 
-/// The vehicle where neither flags nor scenario name one.
+/// The vehicle where neither the flags nor the scenario name one.
 const DEFAULT_VEHICLE: &str = "warehouse_amr";
 
-/// A vehicle and the name it goes by.
+/// A map and the vehicle that drives on it.
 #[derive(Clone, Debug)]
-pub(crate) struct NamedVehicle {
-    pub(crate) name: String,
-    pub(crate) vehicle: Vehicle,
-}
-
-/// A map with its story, and a vehicle on it.
-#[derive(Clone, Debug)]
-pub(crate) struct Ground {
-    /// The map, unknown cells decided, closed areas filled.
+pub(crate) struct Scene {
+    /// The map; unknown cells are decided and keep-out areas filled.
     pub(crate) map: OccupancyGrid,
-    /// Its story.
+    /// Where the map comes from and what the flags changed on it.
     pub(crate) record: MapRecord,
     /// The vehicle, with its margin.
     pub(crate) vehicle: NamedVehicle,
@@ -34,31 +35,23 @@ pub(crate) struct Ground {
     pub(crate) ends: Option<[Pose2; 2]>,
 }
 
-/// A map as it was found, before flags change it.
-pub(crate) struct Found {
-    pub(crate) name: String,
-    pub(crate) map: OccupancyGrid,
-    pub(crate) vehicle: Option<NamedVehicle>,
-    pub(crate) ends: Option<[Pose2; 2]>,
-}
-
-/// Reads what the flags name.
-pub(crate) fn load(args: &GroundArgs) -> Result<Ground> {
+/// Loads the map and the vehicle that the flags name.
+pub(crate) fn load(args: &SceneArgs) -> Result<Scene> {
     // The vehicle first: it is quick to refuse.
-    let asked = args.vehicle.as_deref().map(vehicle).transpose()?;
-    let found = find(args)?;
-    let fallback = || vehicle(DEFAULT_VEHICLE);
-    let mut vehicle = asked.or(found.vehicle).map_or_else(fallback, Ok)?;
+    let asked = args.vehicle.as_deref().map(vehicle::by_name).transpose()?;
+    let loaded = find(args)?;
+    let fallback = || vehicle::by_name(DEFAULT_VEHICLE);
+    let mut vehicle = asked.or(loaded.vehicle).map_or_else(fallback, Ok)?;
     if let Some(margin_m) = args.margin {
         vehicle.vehicle = vehicle.vehicle.with_safety_margin(margin_m)?;
     }
-    let mut map = found.map.with_unknown(args.unknown);
+    let mut map = loaded.map.with_unknown(args.unknown);
     for area in &args.keep_out {
         map.fill_polygon(&area.0, OCCUPIED);
     }
-    let corners = |area: &crate::args::Polygon| area.0.iter().map(|p| [p.x, p.y]).collect();
+    let corners = |area: &Polygon| area.0.iter().map(|p| [p.x, p.y]).collect();
     let record = MapRecord {
-        name: found.name,
+        name: loaded.name,
         unknown: match args.unknown {
             UnknownPolicy::Free => "free",
             UnknownPolicy::Occupied => "occupied",
@@ -67,16 +60,16 @@ pub(crate) fn load(args: &GroundArgs) -> Result<Ground> {
         keep_out: args.keep_out.iter().map(corners).collect(),
         ..MapRecord::default()
     };
-    Ok(Ground {
+    Ok(Scene {
         map,
         record,
         vehicle,
-        ends: found.ends,
+        ends: loaded.ends,
     })
 }
 
-/// The map that the flags name, as it is.
-pub(crate) fn find(args: &GroundArgs) -> Result<Found> {
+/// The map that the flags name, unchanged.
+pub(crate) fn find(args: &SceneArgs) -> Result<Loaded> {
     match (&args.map, &args.scenario) {
         (Some(name), None) if BuiltinMap::by_name(name).is_ok() => builtin(args, name),
         (Some(name), None) => file(args, name),
@@ -92,7 +85,7 @@ pub(crate) fn find(args: &GroundArgs) -> Result<Found> {
     }
 }
 
-fn builtin(args: &GroundArgs, name: &str) -> Result<Found> {
+fn builtin(args: &SceneArgs, name: &str) -> Result<Loaded> {
     if args.resolution.is_some() {
         bail!("--resolution: the built-in map {name} has its own; hint: leave the flag out");
     }
@@ -101,15 +94,15 @@ fn builtin(args: &GroundArgs, name: &str) -> Result<Found> {
         Some(id) => Some(builtin.request(id)?),
         None => builtin.requests.first(),
     };
-    Ok(Found {
+    Ok(Loaded {
         name: name.to_owned(),
         map: builtin.grid(),
-        vehicle: Some(vehicle(builtin.vehicle)?),
+        vehicle: Some(vehicle::by_name(builtin.vehicle)?),
         ends: request.map(|request| [request.start, request.goal]),
     })
 }
 
-fn file(args: &GroundArgs, name: &str) -> Result<Found> {
+fn file(args: &SceneArgs, name: &str) -> Result<Loaded> {
     if let Some(id) = &args.request {
         bail!("--request {id}: only built-in maps have requests; hint: --start and --goal");
     }
@@ -121,41 +114,10 @@ fn file(args: &GroundArgs, name: &str) -> Result<Found> {
         // A bare word: most likely a misspelled built-in.
         BuiltinMap::by_name(name)?;
     }
-    Ok(Found {
+    Ok(Loaded {
         name: name.to_owned(),
         map: read_map(path, &options)?,
         vehicle: None,
         ends: None,
-    })
-}
-
-/// A vehicle by preset name, or from a `.toml` or `.json` file.
-pub(crate) fn vehicle(name: &str) -> Result<NamedVehicle> {
-    let path = Path::new(name);
-    let extension = path.extension().and_then(|e| e.to_str());
-    let vehicle = match extension.map(str::to_ascii_lowercase).as_deref() {
-        Some("toml") => {
-            let text = files::read_text(path)?;
-            let parameters = toml::from_str(&text)
-                .map_err(|e| anyhow::anyhow!("{}", e.message().replace('\n', " ")));
-            Vehicle::new(parameters.with_context(|| name.to_owned())?)
-        }
-        Some("json") => {
-            let text = files::read_text(path)?;
-            Vehicle::new(serde_json::from_str(&text).with_context(|| name.to_owned())?)
-        }
-        _ => return preset(name),
-    };
-    Ok(NamedVehicle {
-        name: name.to_owned(),
-        vehicle: vehicle.with_context(|| name.to_owned())?,
-    })
-}
-
-fn preset(name: &str) -> Result<NamedVehicle> {
-    let vehicle = Vehicle::preset(name);
-    Ok(NamedVehicle {
-        name: name.to_owned(),
-        vehicle: vehicle.context("--vehicle: neither a preset nor a .toml or .json file")?,
     })
 }

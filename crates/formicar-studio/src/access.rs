@@ -1,6 +1,6 @@
-//! Who may come in, and what a browser may do with the page.
+//! Access control: the requests that are admitted, and the headers that restrict the page.
 
-use crate::Studio;
+use crate::state::Studio;
 use axum::extract::{Request, State};
 use axum::http::header::{
     CACHE_CONTROL, CONTENT_SECURITY_POLICY, COOKIE, HOST, HeaderName, HeaderValue, ORIGIN,
@@ -12,12 +12,12 @@ use axum::response::{IntoResponse, Response};
 use std::net::IpAddr;
 use std::sync::Arc;
 
-/// What the page may load: its own files and nothing else.
+/// The content security policy: the page loads its own files and nothing else.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; \
     img-src 'self' data: blob:; connect-src 'self'; manifest-src 'self'; base-uri 'none'; \
     form-action 'none'; frame-ancestors 'none'";
 
-/// Lets a request in or not, and says on every answer what a browser may do.
+/// Admits or refuses a request, and adds the security headers to every response.
 pub(crate) async fn guard(
     State(studio): State<Arc<Studio>>,
     request: Request,
@@ -29,24 +29,24 @@ pub(crate) async fn guard(
         None => next.run(request).await,
     };
     let headers = response.headers_mut();
-    let said: [(HeaderName, &'static str); 5] = [
+    let added: [(HeaderName, &'static str); 5] = [
         (CONTENT_SECURITY_POLICY, POLICY),
         (X_CONTENT_TYPE_OPTIONS, "nosniff"),
         (X_FRAME_OPTIONS, "DENY"),
         (REFERRER_POLICY, "no-referrer"),
         (CACHE_CONTROL, "no-cache"),
     ];
-    for (name, value) in said {
+    for (name, value) in added {
         headers.insert(name, HeaderValue::from_static(value));
     }
     response
 }
 
-/// Why a request is not let in; none where it is.
+/// The reason to refuse a request, if there is one.
 ///
-/// With a token who knows it is let in. Without one only this machine can ask, but a browser on it
-/// may ask for the sake of a page from elsewhere: such a page has another origin, or, where its
-/// name was made to lead here, another host.
+/// With a token, a request that has it is admitted. Without one, only this machine can connect, but
+/// a browser on it may send requests for a foreign page: such a page has another origin or, if its
+/// name was made to resolve to this machine (DNS rebinding), another host.
 fn refusal(
     headers: &HeaderMap,
     uri: &Uri,
@@ -64,23 +64,24 @@ fn refusal(
     if !is_own {
         return Some((
             StatusCode::FORBIDDEN,
-            "only the studio's own page may ask\n",
+            "only the studio's own page may send requests\n",
         ));
     }
     match token {
-        Some(token) if !knows(headers, uri, token) => Some((
+        Some(token) if !has_token(headers, uri, token) => Some((
             StatusCode::UNAUTHORIZED,
             "a token is needed; hint: the address that the studio printed\n",
         )),
-        None if !host.is_some_and(is_loopback) => {
-            Some((StatusCode::FORBIDDEN, "only localhost may be asked for\n"))
-        }
+        None if !host.is_some_and(is_loopback) => Some((
+            StatusCode::FORBIDDEN,
+            "the studio answers to localhost only\n",
+        )),
         _ => None,
     }
 }
 
 /// Whether a request has the token, in its address or as a cookie of the page.
-fn knows(headers: &HeaderMap, uri: &Uri, token: &str) -> bool {
+fn has_token(headers: &HeaderMap, uri: &Uri, token: &str) -> bool {
     let query = uri.query().unwrap_or_default().split('&');
     let cookies = headers.get_all(COOKIE).iter();
     let cookies = cookies.filter_map(|cookies| cookies.to_str().ok());
@@ -91,12 +92,12 @@ fn knows(headers: &HeaderMap, uri: &Uri, token: &str) -> bool {
         .any(|(_, given)| is_same(given.as_bytes(), token.as_bytes()))
 }
 
-/// Compares without telling by time where two differ.
+/// Compares in a time that does not depend on where the two differ.
 fn is_same(a: &[u8], b: &[u8]) -> bool {
     a.len() == b.len() && a.iter().zip(b).fold(0, |all, (x, y)| all | (x ^ y)) == 0
 }
 
-/// Whether a host is a name of this machine for itself.
+/// Whether a host is a loopback name or address.
 fn is_loopback(host: &str) -> bool {
     let name = match host.rsplit_once(':') {
         Some((name, port)) if port.bytes().all(|byte| byte.is_ascii_digit()) => name,
@@ -120,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn pages_from_elsewhere_may_not_ask() {
+    fn foreign_pages_are_refused() {
         for host in [
             "localhost:8484",
             "127.0.0.1:8484",
@@ -138,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn with_a_token_who_knows_it_is_let_in() {
+    fn requests_with_the_token_are_admitted() {
         let token = Some("0123456789abcdef");
         let host = "robot.local:8484";
         assert_eq!(status(host, None, "/", token), 401);

@@ -1,0 +1,56 @@
+//! Flags that choose the map and the vehicle.
+
+use crate::values;
+use clap::{Args, ValueHint};
+use formicar::geometry::Point2;
+use formicar::map::UnknownPolicy;
+use std::path::PathBuf;
+
+/// Flags for the map, the areas closed on it, and the vehicle.
+#[derive(Args, Debug, Default)]
+pub(crate) struct SceneArgs {
+    /// Map file (ROS .yaml, Moving AI .map, .csv or .txt matrix) or name of a built-in map.
+    #[arg(long, value_name = "F|NAME", value_hint = ValueHint::FilePath)]
+    pub(crate) map: Option<String>,
+
+    /// Scenario file: .json with map, start, goal and vehicle, or a TPCAP CaseN.csv.
+    #[arg(long, value_name = "F", conflicts_with = "map", value_hint = ValueHint::FilePath)]
+    pub(crate) scenario: Option<PathBuf>,
+
+    /// Scenario of a .json file; not needed for a file with a single scenario.
+    #[arg(long, requires = "scenario", conflicts_with = "map")]
+    pub(crate) id: Option<String>,
+
+    /// Request of a built-in map; the first by default.
+    #[arg(long, value_name = "ID", requires = "map", conflicts_with = "scenario")]
+    pub(crate) request: Option<String>,
+
+    /// Cell size in meters, for TPCAP cases (0.1 by default) and matrices (1 by default).
+    #[arg(long, value_name = "M", value_parser = values::positive, allow_hyphen_values = true)]
+    pub(crate) resolution: Option<f64>,
+
+    /// Treat unknown cells as free or as occupied.
+    #[arg(long, value_name = "POLICY", default_value = "occupied",
+          value_parser = values::word::<UnknownPolicy>(&["free", "occupied"]))]
+    pub(crate) unknown: UnknownPolicy,
+
+    /// Keep-out area: "x,y x,y x,y" or [[x, y], ...]; may be repeated.
+    #[arg(long, value_name = "POLYGON", value_parser = parse_polygon, allow_hyphen_values = true)]
+    pub(crate) keep_out: Vec<Polygon>,
+
+    /// Built-in vehicle (see `list vehicles`) or a .toml or .json file; `warehouse_amr` by default.
+    #[arg(long, value_name = "NAME|F")]
+    pub(crate) vehicle: Option<String>,
+
+    /// Safety margin around the vehicle, meters.
+    #[arg(long, value_name = "M", value_parser = values::not_negative, allow_hyphen_values = true)]
+    pub(crate) margin: Option<f64>,
+}
+
+/// Corners of an area. (A type of its own, since clap takes a bare `Vec` for a repeated flag.)
+#[derive(Clone, Debug)]
+pub(crate) struct Polygon(pub(crate) Vec<Point2>);
+
+fn parse_polygon(text: &str) -> Result<Polygon, String> {
+    values::polygon(text).map(Polygon)
+}

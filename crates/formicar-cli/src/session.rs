@@ -1,0 +1,122 @@
+//! A planner with the scene it was prepared for, and its answers to requests.
+
+#[cfg(feature = "lab")]
+use crate::clock::PathTold;
+use crate::clock::{Clock, Watch};
+use crate::failure::Ending;
+use crate::scene::Scene;
+use anyhow::Result;
+use formicar::collision::ObstacleMap;
+use formicar::numeric::Seed;
+use formicar::planner::{
+    Answer, AnswerContext, Outcome, PlanError, Planner, PlannerConfig, RequestDocument, Timing,
+};
+use formicar::progress::AntFrames;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// A prepared planner and the scene it plans in.
+pub(crate) struct Session {
+    pub(crate) planner: Planner,
+    pub(crate) scene: Scene,
+    pub(crate) obstacles: Arc<ObstacleMap>,
+    config: PlannerConfig,
+    /// The ants of the last query, if they are kept.
+    pub(crate) ants: Option<AntFrames>,
+    map_setup_s: f64,
+    begun: Instant,
+}
+
+/// One answered query.
+pub(crate) struct Answered {
+    pub(crate) answer: Answer,
+    pub(crate) result: Result<Outcome, PlanError>,
+    pub(crate) n_improvements: u32,
+    /// The certified paths found on the way, the best last.
+    #[cfg(feature = "lab")]
+    pub(crate) paths: Vec<PathTold>,
+}
+
+impl Session {
+    /// Prepares a planner; `begun` is when the command began.
+    pub(crate) fn new(scene: Scene, config: PlannerConfig, begun: Instant) -> Result<Self> {
+        let setup = Instant::now();
+        let planner = Planner::new(&scene.map, scene.vehicle.vehicle.clone(), config.clone())?;
+        Ok(Self {
+            obstacles: planner.obstacles().clone(),
+            planner,
+            scene,
+            config,
+            ants: None,
+            map_setup_s: setup.elapsed().as_secs_f64(),
+            begun,
+        })
+    }
+
+    pub(crate) fn with_threads(self, n_threads: usize) -> Self {
+        Self {
+            planner: self.planner.with_threads(n_threads),
+            ..self
+        }
+    }
+
+    /// Keeps the ants of every query from now on, until the next query.
+    pub(crate) fn keep_ants(&mut self) {
+        let frame = self.obstacles.frame();
+        self.ants = Some(AntFrames::new(frame.n_cols(), frame.n_rows()));
+    }
+
+    /// Plans one request; what it leaves out comes from `defaults`.
+    pub(crate) fn ask(
+        &mut self,
+        request: &RequestDocument,
+        defaults: &RequestDocument,
+        seed: Seed,
+    ) -> Answered {
+        let mut watch = Watch {
+            clock: Clock::begin(),
+            ants: self.ants.as_mut(),
+        };
+        let planned = request.onto(defaults).map_err(PlanError::from);
+        let request = planned.as_ref().ok().cloned();
+        let result = planned.and_then(|request| self.planner.plan(&request, seed, &mut watch));
+        let clock = watch.clock;
+        let timing = Timing {
+            map_setup_s: self.map_setup_s,
+            first_feasible_s: clock.first_feasible_s(),
+            query_s: clock.query_s(),
+            total_s: self.begun.elapsed().as_secs_f64(),
+        };
+        Answered {
+            answer: self
+                .context()
+                .answer(request.as_ref(), seed, &result, timing),
+            result,
+            n_improvements: clock.n_improvements(),
+            #[cfg(feature = "lab")]
+            paths: clock.into_paths(),
+        }
+    }
+
+    /// The part that all answers of this session share.
+    pub(crate) fn context(&self) -> AnswerContext<'_> {
+        AnswerContext {
+            obstacles: &self.obstacles,
+            map: self.scene.record.clone(),
+            vehicle: &self.scene.vehicle.vehicle,
+            vehicle_name: &self.scene.vehicle.name,
+            config: &self.config,
+        }
+    }
+}
+
+impl Answered {
+    /// How a command ends that gives this answer.
+    pub(crate) fn ending(&self) -> Ending {
+        match &self.result {
+            Ok(Outcome::Found(_)) => Ending::Done,
+            Ok(Outcome::NotFound(_)) => Ending::NoPath,
+            Err(_) => Ending::Refused,
+        }
+    }
+}
