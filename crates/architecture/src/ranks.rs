@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 
 /// The library.
 pub const LIBRARY: &[&str] = &[
+    "parameters",
     "numeric",
     "geometry",
     "vehicle",

@@ -3,8 +3,6 @@
 use anyhow::{Context, Result, anyhow, bail};
 use formicar::planner::{PlannerConfig, PlannerName};
 use formicar::vehicle::Motion;
-use serde_json::Value as Json;
-use std::collections::BTreeSet;
 use std::path::Path;
 use toml::{Table, Value};
 
@@ -137,33 +135,10 @@ fn value(text: &str) -> Value {
 
 /// Every key that a configuration may have, dotted.
 fn known_keys() -> Vec<String> {
-    let schema = schemars::schema_for!(PlannerConfig).to_value();
-    let mut keys = BTreeSet::new();
-    collect_keys(&schema, &schema, "", &mut keys);
-    keys.into_iter().collect()
-}
-
-/// The keys of a part of a schema: its properties, of all its variants; a part without any is a
-/// key by itself.
-fn collect_keys(part: &Json, schema: &Json, prefix: &str, keys: &mut BTreeSet<String>) {
-    let mut is_leaf = true;
-    if let Some(reference) = part["$ref"].as_str() {
-        let definition = schema.pointer(reference.trim_start_matches('#'));
-        collect_keys(definition.unwrap_or(&Json::Null), schema, prefix, keys);
-        is_leaf = false;
-    }
-    for variant in part["oneOf"].as_array().into_iter().flatten() {
-        collect_keys(variant, schema, prefix, keys);
-        is_leaf = false;
-    }
-    for (name, property) in part["properties"].as_object().into_iter().flatten() {
-        let dot = if prefix.is_empty() { "" } else { "." };
-        collect_keys(property, schema, &format!("{prefix}{dot}{name}"), keys);
-        is_leaf = false;
-    }
-    if is_leaf && !prefix.is_empty() && part["type"] != "object" {
-        keys.insert(prefix.to_owned());
-    }
+    let parameters = PlannerConfig::parameters().into_iter();
+    let mut keys: Vec<String> = parameters.map(|parameter| parameter.key).collect();
+    keys.dedup();
+    keys
 }
 
 /// The keys of a table, dotted.

@@ -4,7 +4,7 @@
 //! occupancy grid, a [`vehicle::Vehicle`] and two poses, formicar returns a path that the vehicle
 //! can drive, proven by a [`validation::Certificate`], or a named reason why there is none.
 //!
-//! Modules are ranked, and each uses only those before it: [`numeric`], [`geometry`], [`vehicle`],
+//! Modules are ranked, and each uses only those before it: [`parameters`], [`numeric`], [`geometry`], [`vehicle`],
 //! [`map`], [`path`], [`collision`], [`scenario`], [`validation`], [`metrics`], [`progress`],
 //! [`layers`], [`objective`], [`smoothing`], [`search`], [`colony`], [`evolution`],
 //! [`tracking`], [`planner`], [`tuning`], [`render`]. SI units and radians inside; a pose is the center of the rear axle, x forward, y
@@ -20,6 +20,7 @@ pub mod map;
 pub mod metrics;
 pub mod numeric;
 pub mod objective;
+pub mod parameters;
 pub mod path;
 pub mod planner;
 pub mod progress;

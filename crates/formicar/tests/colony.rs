@@ -409,7 +409,7 @@ fn bad_parameters_are_refused_with_their_range() {
                 ..AstarSeed::default()
             });
         }),
-        ("rho is -0.05", |c| {
+        ("rho at iteration 9 = -0.05", |c| {
             c.evaporation = Evaporation::Poisson(PoissonEvaporation {
                 offset: 0.575,
                 ..PoissonEvaporation::default()

@@ -15,6 +15,7 @@ mod explanations;
 mod formats;
 mod grid_search;
 mod improve;
+mod parameters;
 mod pictures;
 mod planners;
 mod references;

@@ -3,6 +3,7 @@
 
 use super::leaf::{Leaf, leaves};
 use anyhow::{Context, Result, bail};
+use formicar::parameters::Kind as ValueKind;
 use formicar::planner::PlannerConfig;
 use formicar::tuning::{Dimension, Kind, ParameterSpace};
 use serde::{Deserialize, Serialize};
@@ -60,12 +61,12 @@ impl TuningSpace {
         }
         let (mut dimensions, mut choices, mut left_out) = (Vec::new(), Vec::new(), Vec::new());
         for leaf in &leaves {
-            let is_named = keys.contains(&leaf.key);
+            let is_named = keys.iter().any(|key| key == leaf.key());
             let is_meant = is_named || (keys.is_empty() && groups.is_empty());
-            if !is_meant && !groups.iter().any(|group| is_within(&leaf.key, group)) {
+            if !is_meant && !groups.iter().any(|group| is_within(leaf.key(), group)) {
                 continue;
             }
-            let own = ranges.iter().find(|range| range.key == leaf.key);
+            let own = ranges.iter().find(|range| range.key == leaf.key());
             match leaf.dimension(own)? {
                 Some((dimension, words)) => {
                     dimensions.push(dimension);
@@ -73,10 +74,10 @@ impl TuningSpace {
                 }
                 None if is_named => bail!(
                     "{}: its schema has no finite range; hint: --range {}=LOW..HIGH",
-                    leaf.key,
-                    leaf.key
+                    leaf.key(),
+                    leaf.key()
                 ),
-                None => left_out.push(leaf.key.clone()),
+                None => left_out.push(leaf.key().to_owned()),
             }
         }
         if let Some(range) = ranges
@@ -159,14 +160,13 @@ impl Leaf {
         let words = self.words();
         if !words.is_empty() {
             if own.is_some() {
-                bail!("--range {}: it takes words, not numbers", self.key);
+                bail!("--range {}: it takes words, not numbers", self.key());
             }
             let n_choices = words.len() as u32;
             let kind = Kind::Choice { n_choices };
-            return Ok(Some((Dimension::new(&self.key, kind), words)));
+            return Ok(Some((Dimension::new(self.key(), kind), words)));
         }
-        let bound = |name: &str| self.schema.get(name).and_then(Value::as_f64);
-        let known = [bound("minimum"), bound("maximum")];
+        let known = self.bounds();
         let (low, high) = match (own, known) {
             (Some(own), _) => (own.low, own.high),
             (None, [Some(low), Some(high)]) => (low, high),
@@ -174,17 +174,17 @@ impl Leaf {
         };
         if low < known[0].unwrap_or(low) || high > known[1].unwrap_or(high) {
             let [low, high] = known.map(|bound| bound.map_or("any".to_owned(), |b| b.to_string()));
-            bail!("--range {}: it must stay in {low} to {high}", self.key);
+            bail!("--range {}: it must stay in {low} to {high}", self.key());
         }
         let is_log = own.is_some_and(|own| own.is_log);
-        let kind = match (self.schema["type"].as_str(), is_log) {
-            (Some("integer"), true) => Kind::LogInteger { low, high },
-            (Some("integer"), false) => Kind::Integer { low, high },
+        let kind = match (self.parameter.kind, is_log) {
+            (ValueKind::Integer, true) => Kind::LogInteger { low, high },
+            (ValueKind::Integer, false) => Kind::Integer { low, high },
             (_, true) => Kind::LogReal { low, high },
             (_, false) => Kind::Real { low, high },
         };
         let is_number = self.value.is_number();
-        Ok(is_number.then(|| (Dimension::new(&self.key, kind), Vec::new())))
+        Ok(is_number.then(|| (Dimension::new(self.key(), kind), Vec::new())))
     }
 }
 
@@ -214,10 +214,10 @@ fn is_within(key: &str, group: &str) -> bool {
 }
 
 fn known(name: &str, leaves: &[Leaf]) -> Result<()> {
-    if leaves.iter().any(|leaf| leaf.key == name) {
+    if leaves.iter().any(|leaf| leaf.key() == name) {
         return Ok(());
     }
-    let keys: Vec<&str> = leaves.iter().map(|leaf| leaf.key.as_str()).collect();
+    let keys: Vec<&str> = leaves.iter().map(|leaf| leaf.key()).collect();
     bail!(
         "the planner has no parameter {name:?} that can be tuned; there are {}",
         keys.join(", ")
@@ -225,12 +225,12 @@ fn known(name: &str, leaves: &[Leaf]) -> Result<()> {
 }
 
 fn known_group(group: &str, leaves: &[Leaf]) -> Result<()> {
-    if leaves.iter().any(|leaf| is_within(&leaf.key, group)) {
+    if leaves.iter().any(|leaf| is_within(leaf.key(), group)) {
         return Ok(());
     }
     let mut groups: Vec<&str> = leaves
         .iter()
-        .filter_map(|leaf| leaf.key.rsplit_once('.').map(|(group, _)| group))
+        .filter_map(|leaf| leaf.key().rsplit_once('.').map(|(group, _)| group))
         .collect();
     groups.sort_unstable();
     groups.dedup();
@@ -261,8 +261,8 @@ mod tests {
             let leaves = leaves(&base);
             let numbers = leaves.iter().filter(|leaf| leaf.value.is_number());
             let wrong: Vec<&str> = numbers
-                .filter(|leaf| !beyond(leaf).all(|value| is_refused(&base, &leaf.key, value)))
-                .map(|leaf| leaf.key.as_str())
+                .filter(|leaf| !beyond(leaf).all(|value| is_refused(&base, leaf.key(), value)))
+                .map(|leaf| leaf.key())
                 .collect();
             assert!(wrong.is_empty(), "taken outside of their range: {wrong:?}");
         }
@@ -270,16 +270,16 @@ mod tests {
 
     /// Values just outside the range of a number.
     fn beyond(leaf: &Leaf) -> impl Iterator<Item = f64> {
-        let bound = |name: &str| leaf.schema.get(name).and_then(Value::as_f64);
-        let low = bound("minimum").or(bound("exclusiveMinimum"));
-        let high = bound("maximum");
-        let is_open = WITHOUT_MAXIMUM.iter().any(|name| leaf.key.ends_with(name));
-        assert!(low.is_some(), "{} has no least value", leaf.key);
+        let [low, high] = leaf.bounds();
+        let is_open = WITHOUT_MAXIMUM
+            .iter()
+            .any(|name| leaf.key().ends_with(name));
+        assert!(low.is_some(), "{} has no least value", leaf.key());
         assert_eq!(
             high.is_none(),
             is_open,
             "the greatest value of {}",
-            leaf.key
+            leaf.key()
         );
         low.map(|low| low - 1.0)
             .into_iter()

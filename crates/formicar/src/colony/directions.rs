@@ -1,5 +1,6 @@
 //! The steps that an ant may take.
 
+use crate::parameters::Parameters;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -16,3 +17,5 @@ pub enum Directions {
     #[default]
     Eight,
 }
+
+impl Parameters for Directions {}

@@ -1,28 +1,9 @@
 //! Errors of colonies.
 
-use crate::numeric::OutOfRange;
+use crate::parameters::OutOfRange;
 use crate::search::SearchError;
 use crate::vehicle::VehicleError;
 use thiserror::Error;
-
-/// An invalid configuration of a colony.
-#[derive(Clone, Debug, Error, PartialEq)]
-#[non_exhaustive]
-pub enum ColonyError {
-    /// A parameter outside its range.
-    #[error(transparent)]
-    OutOfRange(#[from] OutOfRange),
-    /// An evaporation that would leave its range.
-    #[error(
-        "colony.evaporation: rho is {rho} at iteration {iteration}; it must be above 0 and below 1; hint: change amplitude or offset"
-    )]
-    Evaporation {
-        /// The first iteration at which it does.
-        iteration: u32,
-        /// The share that would evaporate.
-        rho: f64,
-    },
-}
 
 /// Why a colony did not run.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -30,7 +11,7 @@ pub enum ColonyError {
 pub enum RunError {
     /// A parameter is out of its range.
     #[error(transparent)]
-    Config(#[from] ColonyError),
+    Config(#[from] OutOfRange),
     /// Start or goal lies off the map or on a blocked cell, or the goal field was cut short.
     #[error(transparent)]
     Search(#[from] SearchError),

@@ -40,7 +40,7 @@ pub use adjacency::{Adjacency, PositionClass};
 pub use cell_colony::run;
 pub use config::{AdjacentGoal, ColonyConfig, TrailLayout};
 pub use directions::Directions;
-pub use error::{ColonyError, RunError};
+pub use error::RunError;
 pub use problem::ColonyProblem;
 pub use run::ColonyRun;
 pub use stopping::Stopping;

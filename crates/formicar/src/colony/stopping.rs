@@ -1,20 +1,20 @@
 //! The conditions on which a colony stops before the last iteration.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::parameters::parameters;
 
-/// When to stop before the last iteration.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct Stopping {
-    /// Iterations without a better path after which the colony stops; 0 for never.
-    pub stall_iterations: u32,
-    /// How much cheaper a path must be to count as better, in shares of the cost, from 0 to 1.
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub least_gain: f64,
-    /// Cost at which a path is good enough, at least 0; 0 for none.
-    #[schemars(range(min = 0.0))]
-    pub target_cost: f64,
+parameters! {
+    /// When to stop before the last iteration.
+    #[derive(Default)]
+    pub struct Stopping {
+        /// Iterations without a better path after which the colony stops; 0 for never.
+        pub stall_iterations: u32,
+        /// How much cheaper a path must be to count as better, in shares of the cost.
+        #[range(0.0..=1.0)]
+        pub least_gain: f64,
+        /// Cost at which a path is good enough; 0 for none.
+        #[range(0.0..)]
+        pub target_cost: f64,
+    }
 }
 
 impl Stopping {

@@ -8,7 +8,8 @@ use super::problem::EvolutionProblem;
 use super::reachable::ReachableCells;
 use super::selection::{crossover, elite, tournament};
 use crate::map::Cell;
-use crate::numeric::{OutOfRange, Seed};
+use crate::numeric::Seed;
+use crate::parameters::OutOfRange;
 use crate::progress::{Event, History, IterationRecord, Limits, PopulationView, Stop, iterate};
 
 /// The result of an evolution.

@@ -5,8 +5,8 @@ use super::obstruction::blocked_length;
 use super::problem::EvolutionProblem;
 use crate::geometry::Point2;
 use crate::map::{Cell, cells_in_sight};
-use crate::numeric::OutOfRange;
 use crate::objective::SteeredLine;
+use crate::parameters::OutOfRange;
 
 /// The score of a polyline; the least fitness is the best.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

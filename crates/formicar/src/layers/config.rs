@@ -1,6 +1,6 @@
 //! Parameters of the layers.
 
-use crate::numeric::{OutOfRange, check_range};
+use crate::parameters::{OutOfRange, Parameters, Range, parameters};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -11,15 +11,16 @@ pub const MAX_EXPANSION_CELLS: u32 = 64;
 /// rounding adds no cell.
 const WIDTH_TOLERANCE_CELLS: f64 = 1e-6;
 
-/// What is laid over a map before ants walk on it; by default nothing.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct LayersConfig {
-    /// By how many cells obstacles are grown: `none`, `half-width` (of the vehicle), or
-    /// `{ cells = n }`, n in 0 to 64.
-    pub expansion: Expansion,
-    /// What becomes of the U-shaped areas of obstacles: `keep` or `close`.
-    pub u_shapes: UShapes,
+parameters! {
+    /// What is laid over a map before ants walk on it; by default nothing.
+    #[derive(Default, Eq)]
+    pub struct LayersConfig {
+        /// By how many cells obstacles are grown: `none`, `half-width` (of the vehicle), or
+        /// `{ cells = n }`.
+        pub expansion: Expansion,
+        /// What becomes of the U-shaped areas of obstacles: `keep` or `close`.
+        pub u_shapes: UShapes,
+    }
 }
 
 /// By how many cells around obstacles the ground becomes impassable.
@@ -32,20 +33,17 @@ pub enum Expansion {
     /// By half the vehicle's width, rounded up to whole cells (Lei 2020, sec. II.B).
     HalfWidth,
     /// By a number of cells, 0 to [`MAX_EXPANSION_CELLS`].
-    Cells(#[schemars(range(min = 0, max = 64))] u32),
+    Cells(#[schemars(range(min = 0, max = MAX_EXPANSION_CELLS))] u32),
 }
 
-impl LayersConfig {
-    /// Checks the ranges.
-    ///
-    /// # Errors
-    /// The first parameter outside its range.
-    pub fn check(&self) -> Result<(), OutOfRange> {
-        let Expansion::Cells(n_cells) = self.expansion else {
-            return Ok(());
-        };
-        let limit = f64::from(MAX_EXPANSION_CELLS);
-        check_range("layers.expansion.cells", f64::from(n_cells), 0.0..=limit)
+impl Parameters for Expansion {
+    fn check(&self) -> Result<(), OutOfRange> {
+        match self {
+            Self::None | Self::HalfWidth => Ok(()),
+            Self::Cells(n_cells) => {
+                Range::of::<u32>(0..=MAX_EXPANSION_CELLS).check("cells", n_cells)
+            }
+        }
     }
 }
 
@@ -70,6 +68,8 @@ pub enum UShapes {
     /// They are closed where that lengthens no way around them (Lei 2020, sec. II.C).
     Close,
 }
+
+impl Parameters for UShapes {}
 
 #[cfg(test)]
 mod tests {

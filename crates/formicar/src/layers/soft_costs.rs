@@ -2,7 +2,7 @@
 
 use crate::geometry::Point2;
 use crate::map::{Cell, FREE, GridFrame, OCCUPIED, OccupancyGrid};
-use crate::numeric::{OutOfRange, check_range};
+use crate::parameters::{OutOfRange, Range};
 use thiserror::Error;
 
 /// The largest weight of soft costs.
@@ -52,7 +52,8 @@ impl SoftCosts {
     /// # Errors
     /// As many values as cells, each in 0..=1, are needed, and a weight in its range.
     pub fn new(frame: GridFrame, values: Vec<f32>, weight: f64) -> Result<Self, SoftCostsError> {
-        check_range("the weight of soft costs", weight, 0.0..=MAX_WEIGHT)?;
+        let weights = Range::of::<f64>(0.0..=MAX_WEIGHT);
+        weights.check("the weight of soft costs", &weight)?;
         if values.len() != frame.n_cells() {
             return Err(SoftCostsError::WrongCellCount {
                 n_values: values.len(),

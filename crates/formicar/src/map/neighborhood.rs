@@ -1,6 +1,7 @@
 //! Which cells are next to which: 4, 8, rings, and when a diagonal step may pass a corner.
 
 use super::Cell;
+use crate::parameters::Parameters;
 use serde::{Deserialize, Serialize};
 
 /// The eight steps to a neighbor as (columns, rows), counter-clockwise from east.
@@ -31,6 +32,8 @@ pub enum DiagonalRule {
     #[default]
     NoObstacles,
 }
+
+impl Parameters for DiagonalRule {}
 
 impl DiagonalRule {
     /// All rules, the most permissive first.

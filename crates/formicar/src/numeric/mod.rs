@@ -4,7 +4,6 @@ mod fractional;
 mod gamma;
 mod golden_section;
 mod random;
-mod range;
 mod runge_kutta;
 mod words;
 
@@ -12,6 +11,5 @@ pub use fractional::{FractionalDerivative, FractionalStream, grunwald_letnikov_w
 pub use gamma::ln_gamma;
 pub use golden_section::golden_section;
 pub use random::{RandomStream, Seed};
-pub use range::{OutOfRange, check_range};
 pub use runge_kutta::rk4_step;
 pub use words::counted;

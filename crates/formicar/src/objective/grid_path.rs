@@ -1,51 +1,24 @@
 //! The cost of a path over cells: its length and its turns.
 
-use crate::numeric::{OutOfRange, check_range};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::parameters::parameters;
 use std::f64::consts::SQRT_2;
 
-/// The cost of a path over cells, F = A P + B T (Lei & Zheng 2020, equation 3).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct PathCost {
-    /// A: weight of the length in cells, from 1e-6 to 1e6.
-    #[schemars(range(min = 1e-6, max = 1e6))]
-    pub length_weight: f64,
-    /// Length of a diagonal step in cells, from 1 to 2; the square root of 2 is exact.
-    #[schemars(range(min = 1.0, max = 2.0))]
-    pub diagonal_length: f64,
-    /// B: weight of a change of direction, from 0 to 1e6.
-    #[schemars(range(min = 0.0, max = 1e6))]
-    pub turn_weight: f64,
-}
-
-impl Default for PathCost {
-    /// The length alone.
-    fn default() -> Self {
-        Self {
-            length_weight: 1.0,
-            diagonal_length: SQRT_2,
-            turn_weight: 0.0,
-        }
+parameters! {
+    /// The cost of a path over cells, F = A P + B T (Lei & Zheng 2020, equation 3).
+    pub struct PathCost {
+        /// A: weight of the length in cells.
+        #[range(1e-6..=1e6)]
+        pub length_weight: f64 = 1.0,
+        /// Length of a diagonal step in cells; the square root of 2 is exact.
+        #[range(1.0..=2.0)]
+        pub diagonal_length: f64 = SQRT_2,
+        /// B: weight of a change of direction.
+        #[range(0.0..=1e6)]
+        pub turn_weight: f64 = 0.0,
     }
 }
 
 impl PathCost {
-    /// Checks the ranges.
-    ///
-    /// # Errors
-    /// The first parameter outside its range.
-    pub fn check(&self) -> Result<(), OutOfRange> {
-        check_range("colony.cost.length_weight", self.length_weight, 1e-6..=1e6)?;
-        check_range(
-            "colony.cost.diagonal_length",
-            self.diagonal_length,
-            1.0..=2.0,
-        )?;
-        check_range("colony.cost.turn_weight", self.turn_weight, 0.0..=1e6)
-    }
-
     /// P: length in cells.
     pub fn length_cells(&self, counts: StepCounts) -> f64 {
         counts.n_straight as f64 + self.diagonal_length * counts.n_diagonal as f64

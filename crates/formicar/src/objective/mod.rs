@@ -6,7 +6,7 @@ mod grid_path;
 mod polyline;
 mod straightness;
 
-pub use drive::DriveCost;
+pub use drive::{DriveCost, Falloff};
 pub use drive_meter::{DriveMeter, SoftCost};
 pub use grid_path::{PathCost, StepCounts};
 pub use polyline::{PolylineCost, SteeredLine, SteeringCost, SteeringMeter};

@@ -2,40 +2,27 @@
 
 use super::Straightness;
 use crate::geometry::{Point2, angle_difference};
-use crate::numeric::{OutOfRange, check_range};
+use crate::parameters::{OutOfRange, parameters};
 use crate::vehicle::{SuspendedSteering, SuspensionParameters};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
-/// J = lambda1 mean(epsilon G |phi| / `phi_c`) + lambda2 L / `L_ref`, over the steps of a
-/// polyline: Li 2024 (15), (18) and (19) for a whole path, without the factor of the generation,
-/// which would let any path seem to improve.
-///
-/// phi is the steering that a step needs for its turn, atan(wheelbase turn / length), `phi_c` the
-/// steering that the suspended vehicle can give there, L the length and `L_ref` that of a shortest
-/// path over cells.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct SteeringCost {
-    /// lambda1: weight of steering, from 0 to 1e6.
-    #[schemars(range(min = 0.0, max = 1e6))]
-    pub steering_weight: f64,
-    /// lambda2: weight of the length, from 1e-6 to 1e6.
-    #[schemars(range(min = 1e-6, max = 1e6))]
-    pub length_weight: f64,
-    /// epsilon: factor on a corner, from 0 to 1e6.
-    #[schemars(range(min = 0.0, max = 1e6))]
-    pub epsilon: f64,
-}
-
-impl Default for SteeringCost {
-    /// The values of Li 2024, sec. 5.2.
-    fn default() -> Self {
-        Self {
-            steering_weight: 0.6,
-            length_weight: 0.2,
-            epsilon: 0.1,
-        }
+parameters! {
+    /// J = lambda1 mean(epsilon G |phi| / `phi_c`) + lambda2 L / `L_ref`, over the steps of a
+    /// polyline: Li 2024 (15), (18) and (19) for a whole path, without the factor of the
+    /// generation, which would let any path seem to improve.
+    ///
+    /// phi is the steering that a step needs for its turn, atan(wheelbase turn / length), `phi_c`
+    /// the steering that the suspended vehicle can give there, L the length and `L_ref` that of a
+    /// shortest path over cells.
+    pub struct SteeringCost {
+        /// λ₁: weight of steering.
+        #[range(0.0..=1e6)]
+        pub steering_weight: f64 = 0.6,
+        /// λ₂: weight of the length.
+        #[range(1e-6..=1e6)]
+        pub length_weight: f64 = 0.2,
+        /// ε: factor on a corner.
+        #[range(0.0..=1e6)]
+        pub epsilon: f64 = 0.1,
     }
 }
 
@@ -68,17 +55,6 @@ pub struct PolylineCost {
 }
 
 impl SteeringCost {
-    /// Checks the ranges.
-    ///
-    /// # Errors
-    /// The first parameter outside its range.
-    pub fn check(&self) -> Result<(), OutOfRange> {
-        let steering = self.steering_weight;
-        check_range("cost.steering_weight", steering, 0.0..=1e6)?;
-        check_range("cost.length_weight", self.length_weight, 1e-6..=1e6)?;
-        check_range("cost.epsilon", self.epsilon, 0.0..=1e6)
-    }
-
     /// The cost of a polyline; 0 if it does not move.
     ///
     /// # Errors
@@ -233,11 +209,6 @@ mod tests {
             epsilon: f64::NAN,
             ..SteeringCost::default()
         };
-        assert!(
-            bad.check()
-                .unwrap_err()
-                .to_string()
-                .contains("cost.epsilon")
-        );
+        assert!(bad.check().unwrap_err().to_string().contains("epsilon"));
     }
 }

@@ -8,37 +8,24 @@
 //! steering rate is known) where the curvature jumps; there its wheels turn first.
 
 use super::{CurvePath, CurveSegment};
-use crate::numeric::{OutOfRange, check_range};
+use crate::parameters::parameters;
 use crate::vehicle::Vehicle;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
-/// What bounds the speed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct SpeedLimits {
-    /// Top speed in both gears, metres per second, 0.001 to 100.
-    #[schemars(range(min = 0.001, max = 100.0))]
-    pub max_speed_mps: f64,
-    /// Largest lateral acceleration, m/s^2, 0.01 to 100; default 2, as in a calmly driven car.
-    #[schemars(range(min = 0.01, max = 100.0))]
-    pub max_lateral_mps2: f64,
-    /// Largest acceleration and deceleration, m/s^2, 0.01 to 100; default 1.
-    #[schemars(range(min = 0.01, max = 100.0))]
-    pub max_acceleration_mps2: f64,
-    /// Fastest change of the steering angle, radians per second, 0.001 to 100; unbounded where left out.
-    #[schemars(range(min = 0.001, max = 100.0))]
-    pub max_steer_rate_rad_per_s: Option<f64>,
-}
-
-impl Default for SpeedLimits {
-    fn default() -> Self {
-        Self {
-            max_speed_mps: 1.0,
-            max_lateral_mps2: 2.0,
-            max_acceleration_mps2: 1.0,
-            max_steer_rate_rad_per_s: None,
-        }
+parameters! {
+    /// What bounds the speed.
+    pub struct SpeedLimits {
+        /// Top speed in both gears, meters per second.
+        #[range(0.001..=100.0)]
+        pub max_speed_mps: f64 = 1.0,
+        /// Largest lateral acceleration, m/s^2; default 2, as in a calmly driven car.
+        #[range(0.01..=100.0)]
+        pub max_lateral_mps2: f64 = 2.0,
+        /// Largest acceleration and deceleration, m/s^2; default 1.
+        #[range(0.01..=100.0)]
+        pub max_acceleration_mps2: f64 = 1.0,
+        /// Fastest change of the steering angle, radians per second; unbounded where left out.
+        #[range(0.001..=100.0)]
+        pub max_steer_rate_rad_per_s: Option<f64> = None,
     }
 }
 
@@ -51,22 +38,6 @@ impl SpeedLimits {
             max_steer_rate_rad_per_s: parameters.max_steer_rate_rad_per_s,
             ..Self::default()
         })
-    }
-
-    /// Whether every limit is in its range.
-    ///
-    /// # Errors
-    /// The first that is not.
-    pub fn check(&self) -> Result<(), OutOfRange> {
-        check_range("max_speed_mps", self.max_speed_mps, 0.001..=100.0)?;
-        check_range("max_lateral_mps2", self.max_lateral_mps2, 0.01..=100.0)?;
-        check_range(
-            "max_acceleration_mps2",
-            self.max_acceleration_mps2,
-            0.01..=100.0,
-        )?;
-        let rate = self.max_steer_rate_rad_per_s.unwrap_or(100.0);
-        check_range("max_steer_rate_rad_per_s", rate, 0.001..=100.0)
     }
 }
 

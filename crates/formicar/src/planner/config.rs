@@ -4,12 +4,12 @@ use super::replan::ReplanConfig;
 use super::sections;
 use crate::colony::chord::ChordConfig;
 use crate::colony::drive::DriveConfig;
-use crate::colony::{ColonyConfig, ColonyError, presets};
+use crate::colony::{ColonyConfig, presets};
 use crate::evolution::EvolutionConfig;
 use crate::layers::{Expansion, LayersConfig, UShapes};
 use crate::map::DiagonalRule;
-use crate::numeric::OutOfRange;
 use crate::objective::DriveCost;
+use crate::parameters::{self, OutOfRange, Parameter, Parameters};
 use crate::search::{HybridAstarConfig, ImprovedAstarConfig};
 use crate::smoothing::{Corners, ImproveConfig, RedundantNodes, SmoothingConfig};
 use schemars::JsonSchema;
@@ -240,12 +240,13 @@ impl std::str::FromStr for PlannerName {
     }
 }
 
-/// Parameters of searches over cells.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct GridSearchConfig {
-    /// Which diagonal steps are allowed beside obstacles.
-    pub diagonal_rule: DiagonalRule,
+parameters::parameters! {
+    /// Parameters of searches over cells.
+    #[derive(Default)]
+    pub struct GridSearchConfig {
+        /// Which diagonal steps are allowed beside obstacles.
+        pub diagonal_rule: DiagonalRule,
+    }
 }
 
 /// What is wrong with a configuration.
@@ -255,9 +256,6 @@ pub enum ConfigError {
     /// A parameter outside its range.
     #[error(transparent)]
     OutOfRange(#[from] OutOfRange),
-    /// A colony that cannot be.
-    #[error(transparent)]
-    Colony(#[from] ColonyError),
     /// No such planner.
     #[error("no planner is named {name:?}; there are {known}")]
     UnknownPlanner {
@@ -298,22 +296,32 @@ impl PlannerConfig {
         }
     }
 
-    /// Whether every parameter is in its range.
+    /// Every parameter that a configuration may have, for every rule.
+    pub fn parameters() -> Vec<Parameter> {
+        parameters::list(&schemars::schema_for!(Self))
+    }
+
+    /// Checks every parameter.
     ///
     /// # Errors
     /// The first parameter that is not, with value and range.
     pub fn check(&self) -> Result<(), ConfigError> {
-        self.hybrid_astar.check()?;
-        self.drive.check()?;
-        self.cost.check()?;
-        self.improve.check()?;
-        self.replan.check()?;
-        self.layers.check()?;
-        self.colony.check()?;
-        self.chords.check()?;
-        self.smoothing.check()?;
-        self.improved_astar.check()?;
-        self.evolution.check()?;
+        let sections: [(&str, &dyn Parameters); 11] = [
+            ("hybrid_astar", &self.hybrid_astar),
+            ("drive", &self.drive),
+            ("cost", &self.cost),
+            ("improve", &self.improve),
+            ("replan", &self.replan),
+            ("layers", &self.layers),
+            ("colony", &self.colony),
+            ("chords", &self.chords),
+            ("smoothing", &self.smoothing),
+            ("improved_astar", &self.improved_astar),
+            ("evolution", &self.evolution),
+        ];
+        for (name, section) in sections {
+            section.check().map_err(|error| error.within(name))?;
+        }
         Ok(())
     }
 }

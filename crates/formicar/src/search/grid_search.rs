@@ -2,7 +2,7 @@
 
 use super::cost::{DIAGONAL_COST, MAX_COST, STRAIGHT_COST};
 use crate::map::{Cell, MoveMasks};
-use crate::numeric::OutOfRange;
+use crate::parameters::OutOfRange;
 use crate::path::GridPath;
 use crate::progress::Status;
 use std::f64::consts::SQRT_2;

@@ -5,40 +5,16 @@ use super::cost::{DIAGONAL_COST, STRAIGHT_COST};
 use super::grid_search::{GridSearch, SearchError};
 use super::open_queue::KeyHeap;
 use crate::map::{Cell, MoveMasks};
-use crate::numeric::{OutOfRange, check_range};
+use crate::parameters::parameters;
 use crate::progress::Limits;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
-/// Parameters of `improved-astar`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct ImprovedAstarConfig {
-    /// w in f = g + (1 + w r / R) h, 0 to 10: 0 is A*, 1 the paper. Paths are at most 1 + w times
-    /// as long as the shortest.
-    #[schemars(range(min = 0.0, max = 10.0))]
-    pub distance_weight: f64,
-}
-
-impl Default for ImprovedAstarConfig {
-    fn default() -> Self {
-        Self {
-            distance_weight: 1.0,
-        }
-    }
-}
-
-impl ImprovedAstarConfig {
-    /// Checks the ranges.
-    ///
-    /// # Errors
-    /// The first parameter outside its range.
-    pub fn check(&self) -> Result<(), OutOfRange> {
-        check_range(
-            "improved_astar.distance_weight",
-            self.distance_weight,
-            0.0..=10.0,
-        )
+parameters! {
+    /// Parameters of `improved-astar`.
+    pub struct ImprovedAstarConfig {
+        /// w in f = g + (1 + w r / R) h: 0 is A*, 1 the paper. Paths are at most 1 + w times as
+        /// long as the shortest.
+        #[range(0.0..=10.0)]
+        pub distance_weight: f64 = 1.0,
     }
 }
 

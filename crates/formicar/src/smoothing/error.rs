@@ -1,7 +1,7 @@
 //! Errors of smoothing.
 
 use super::config::Corners;
-use crate::numeric::OutOfRange;
+use crate::parameters::OutOfRange;
 use crate::scenario::Endpoint;
 use thiserror::Error;
 

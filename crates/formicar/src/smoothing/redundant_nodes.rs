@@ -1,6 +1,7 @@
 //! Removal of redundant nodes from a grid path (Lei & Zheng 2020, sec. III.A).
 
 use crate::map::{BitGrid, Cell, DiagonalRule, cells_in_sight};
+use crate::parameters::Parameters;
 use crate::path::GridPath;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -17,6 +18,8 @@ pub enum RedundantNodes {
     #[default]
     Remove,
 }
+
+impl Parameters for RedundantNodes {}
 
 impl RedundantNodes {
     /// The nodes of a path that stay, its ends always among them.

@@ -56,7 +56,9 @@ pub fn smooth(
         .vehicle
         .with_safety_margin(own_m + config.arc_margin_m);
     let careful_body = careful.map_or(body.clone(), |vehicle| Body::new(&vehicle));
+    let cost = config.cost();
     let task = RoundingTask {
+        cost: &cost,
         obstacles: problem.obstacles,
         body: &body,
         careful_body: &careful_body,

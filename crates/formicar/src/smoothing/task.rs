@@ -4,6 +4,7 @@ use super::config::SmoothingConfig;
 use super::roadmap::Facing;
 use crate::collision::{Body, Drive, ObstacleMap};
 use crate::geometry::{Arc, Curve, Pose2, dubins, reeds_shepp};
+use crate::objective::DriveCost;
 use crate::scenario::MotionMode;
 
 /// Cost of a line or an arc along which the margin is not kept, turning radii.
@@ -29,6 +30,7 @@ pub(super) struct RoundingTask<'a> {
     pub(super) careful_body: &'a Body,
     pub(super) radius_m: f64,
     pub(super) config: &'a SmoothingConfig,
+    pub(super) cost: &'a DriveCost,
     pub(super) motion: MotionMode,
     pub(super) ends: &'a Ends,
 }
@@ -102,33 +104,17 @@ impl RoundingTask<'_> {
         pieces.all(|(_, piece)| self.obstacles.is_free(body, piece))
     }
 
-    /// Factor on a length driven in a gear, +1 or -1.
-    pub(super) fn gear_factor(&self, gear: f64) -> f64 {
-        if gear < 0.0 {
-            self.config.reverse_penalty
-        } else {
-            1.0
-        }
-    }
-
     /// Cost of a curve between two gears; 0 stands for no gear.
     pub(super) fn word_cost(&self, curve: &Curve, [before, after]: [f64; 2]) -> f64 {
         let mut gear = before;
         let mut cost = 0.0;
         for arc in curve.arcs() {
             let next = arc.signed_length_m.signum();
-            cost += self.gear_factor(next) * arc.length_m() + self.switching_cost(gear, next);
+            cost +=
+                self.cost.open_ground_m(*arc, self.radius_m) + self.cost.gear_change_m(gear, next);
             gear = next;
         }
-        cost + self.switching_cost(gear, after)
-    }
-
-    fn switching_cost(&self, before: f64, after: f64) -> f64 {
-        if before * after < 0.0 {
-            self.config.direction_switching_cost
-        } else {
-            0.0
-        }
+        cost + self.cost.gear_change_m(gear, after)
     }
 }
 

@@ -3,6 +3,7 @@
 use super::stretch::Stretch;
 use super::{PurePursuit, Stanley};
 use crate::geometry::Pose2;
+use crate::parameters::{OutOfRange, Parameters};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -36,8 +37,15 @@ pub(super) struct View<'a> {
     pub(super) speed_mps: f64,
 }
 
-/// A parameter with its value and its range.
-pub(super) type Ranged = (&'static str, f64, [f64; 2]);
+impl Parameters for Controller {
+    fn check(&self) -> Result<(), OutOfRange> {
+        match self {
+            Self::OpenLoop => Ok(()),
+            Self::PurePursuit(law) => law.check(),
+            Self::Stanley(law) => law.check(),
+        }
+    }
+}
 
 impl Controller {
     /// The word for the law, as in files.
@@ -65,14 +73,6 @@ impl Controller {
         match self {
             Self::PurePursuit(law) => Self::PurePursuit(law.for_wheelbase(wheelbase_m)),
             other => other,
-        }
-    }
-
-    pub(super) fn ranges(&self) -> Vec<Ranged> {
-        match self {
-            Self::OpenLoop => Vec::new(),
-            Self::PurePursuit(law) => law.ranges(),
-            Self::Stanley(law) => law.ranges(),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Why a path cannot be driven in a simulation.
 
+use crate::parameters::OutOfRange;
 use thiserror::Error;
 
 /// What is wrong with a path, a vehicle or a configuration for a simulated drive.
@@ -7,15 +8,8 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum TrackingError {
     /// A parameter outside its range.
-    #[error("{key} = {value}; it must be {range}")]
-    OutOfRange {
-        /// The parameter.
-        key: &'static str,
-        /// Its value.
-        value: f64,
-        /// What is allowed.
-        range: String,
-    },
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
     /// A vehicle without wheels to turn.
     #[error("the vehicle is a point; a drive is simulated for cars")]
     NeedsACar,

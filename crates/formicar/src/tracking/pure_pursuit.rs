@@ -1,19 +1,19 @@
 //! Pure pursuit (Coulter 1992): the circle to a point ahead.
 
-use super::controller::{Ranged, View};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use super::controller::View;
+use crate::parameters::parameters;
 
-/// Steers along the circle that touches the heading at the rear axle and passes through a point
-/// ahead on the path (R. C. Coulter, *Implementation of the pure pursuit path tracking algorithm*,
-/// 1992).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct PurePursuit {
-    /// How far ahead of the nearest place the point lies along the path, metres, 0.01 to 100;
-    /// half a wheelbase where left out.
-    #[schemars(range(min = 0.01, max = 100.0))]
-    pub lookahead_m: Option<f64>,
+parameters! {
+    /// Steers along the circle that touches the heading at the rear axle and passes through a point
+    /// ahead on the path (R. C. Coulter, *Implementation of the pure pursuit path tracking
+    /// algorithm*, 1992).
+    #[derive(Copy, Default)]
+    pub struct PurePursuit {
+        /// How far ahead of the nearest place the point lies along the path, meters; half a
+        /// wheelbase where left out.
+        #[range(0.01..=100.0)]
+        pub lookahead_m: Option<f64>,
+    }
 }
 
 impl PurePursuit {
@@ -25,11 +25,6 @@ impl PurePursuit {
         Self {
             lookahead_m: self.lookahead_m.or(Some(usual_m)),
         }
-    }
-
-    pub(super) fn ranges(self) -> Vec<Ranged> {
-        let lookahead = self.lookahead_m.map(|m| ("lookahead_m", m, [0.01, 100.0]));
-        lookahead.into_iter().collect()
     }
 
     /// atan(wheelbase 2 y / l^2), where the point lies l away and y to the left (Coulter 1992).

@@ -1,41 +1,26 @@
 //! The Stanley law (Hoffmann et al. 2007): the front wheels along the path, and towards it.
 
-use super::controller::{Ranged, View};
+use super::controller::View;
 use crate::geometry::{Point2, wrap_angle};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::parameters::parameters;
 
-/// Steers by the heading error and by the front axle's cross-track error (G. M. Hoffmann, C. J.
-/// Tomlin, M. Montemerlo and S. Thrun, *Autonomous automobile trajectory tracking for off-road
-/// driving*, 2007; S. Thrun et al., *Stanley: the robot that won the DARPA Grand Challenge*, 2006).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct Stanley {
-    /// Rate at which the front axle comes back to the path, 1/s, 0.01 to 100.
-    #[schemars(range(min = 0.01, max = 100.0))]
-    pub gain_per_s: f64,
-    /// Added to the speed, so that a slow vehicle turns its wheels less, m/s, 0 to 100.
-    #[schemars(range(min = 0.0, max = 100.0))]
-    pub softening_mps: f64,
-}
-
-impl Default for Stanley {
-    fn default() -> Self {
-        Self {
-            gain_per_s: 1.0,
-            softening_mps: 0.0,
-        }
+parameters! {
+    /// Steers by the heading error and by the front axle's cross-track error (G. M. Hoffmann, C. J.
+    /// Tomlin, M. Montemerlo and S. Thrun, *Autonomous automobile trajectory tracking for off-road
+    /// driving*, 2007; S. Thrun et al., *Stanley: the robot that won the DARPA Grand Challenge*,
+    /// 2006).
+    #[derive(Copy)]
+    pub struct Stanley {
+        /// Rate at which the front axle comes back to the path, 1/s.
+        #[range(0.01..=100.0)]
+        pub gain_per_s: f64 = 1.0,
+        /// Added to the speed, so that a slow vehicle turns its wheels less, m/s.
+        #[range(0.0..=100.0)]
+        pub softening_mps: f64 = 0.0,
     }
 }
 
 impl Stanley {
-    pub(super) fn ranges(self) -> Vec<Ranged> {
-        vec![
-            ("gain_per_s", self.gain_per_s, [0.01, 100.0]),
-            ("softening_mps", self.softening_mps, [0.0, 100.0]),
-        ]
-    }
-
     /// psi + atan(k e / (v + softening)) (Hoffmann 2007, sec. III).
     ///
     /// The path is that of the rear axle. Over it the front axle draws a track of its own, whose

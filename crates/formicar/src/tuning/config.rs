@@ -1,27 +1,34 @@
 //! Parameters of the bee colony itself.
 
 use super::rule::SearchRule;
-use crate::numeric::{OutOfRange, check_range};
+use crate::parameters::{OutOfRange, Parameters, Range, parameters};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How many bees search how long, and how.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct BeeColonyConfig {
-    /// SN: food sources, and as many employed bees and onlookers, 4 to 10 000.
-    pub n_sources: u32,
-    /// Trials in a row without gain after which a source is abandoned, 1 to 1 000 000 000; none
-    /// for SN times the number of dimensions (Karaboga & Basturk 2007).
-    pub limit: Option<u32>,
-    /// Evaluations after which the search ends, `n_sources` to 1 000 000 000 000. They are used to
-    /// the last one, so that the last cycle may be cut short.
-    pub max_evaluations: u64,
-    /// By which rules bees search.
-    pub variant: BeeVariant,
+/// The most evaluations of a search.
+const MAX_EVALUATIONS: u64 = 1_000_000_000_000;
+
+parameters! {
+    /// How many bees search how long, and how.
+    pub struct BeeColonyConfig where check_evaluations {
+        /// SN: food sources, and as many employed bees and onlookers.
+        #[range(4..=10_000)]
+        pub n_sources: u32 = 10,
+        /// Trials in a row without gain after which a source is abandoned; none for SN times the
+        /// number of dimensions (Karaboga & Basturk 2007).
+        #[range(1..=1_000_000_000)]
+        pub limit: Option<u32> = None,
+        /// Evaluations after which the search ends, at least `n_sources`. They are used to the last one, so that the last
+        /// cycle may be cut short.
+        #[range(1..=MAX_EVALUATIONS)]
+        pub max_evaluations: u64 = 500,
+        /// By which rules bees search.
+        pub variant: BeeVariant = BeeVariant::default(),
+    }
 }
 
 /// By which rules bees search.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum BeeVariant {
     /// By one, [`SearchRule::Neighbor`] (Karaboga 2005).
@@ -36,6 +43,8 @@ pub enum BeeVariant {
     VariableStrategy,
 }
 
+impl Parameters for BeeVariant {}
+
 impl BeeVariant {
     /// The rules in use.
     pub fn rules(self) -> &'static [SearchRule] {
@@ -46,30 +55,11 @@ impl BeeVariant {
     }
 }
 
-impl Default for BeeColonyConfig {
-    fn default() -> Self {
-        Self {
-            n_sources: 10,
-            limit: None,
-            max_evaluations: 500,
-            variant: BeeVariant::default(),
-        }
-    }
-}
-
 impl BeeColonyConfig {
-    /// Checks the ranges.
-    ///
-    /// # Errors
-    /// The first parameter outside its range.
-    pub fn check(&self) -> Result<(), OutOfRange> {
-        let n_sources = f64::from(self.n_sources);
-        check_range("n_sources", n_sources, 4.0..=1e4)?;
-        if let Some(limit) = self.limit {
-            check_range("limit", f64::from(limit), 1.0..=1e9)?;
-        }
-        let n_most = self.max_evaluations as f64;
-        check_range("max_evaluations", n_most, n_sources..=1e12)
+    /// Every source must be evaluated once.
+    fn check_evaluations(&self) -> Result<(), OutOfRange> {
+        let range = Range::of::<u64>(u64::from(self.n_sources)..=MAX_EVALUATIONS);
+        range.check("max_evaluations", &self.max_evaluations)
     }
 
     /// Trials without gain after which a source is abandoned, in a space of so many dimensions.

@@ -1,6 +1,6 @@
 //! What can be wrong with a search for parameters.
 
-use crate::numeric::OutOfRange;
+use crate::parameters::OutOfRange;
 use thiserror::Error;
 
 /// Why a search cannot begin or go on.

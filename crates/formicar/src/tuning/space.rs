@@ -1,9 +1,8 @@
 //! What can be chosen: named dimensions, each of which is a stretch of the unit interval.
 
 use super::TuningError;
-use crate::numeric::OutOfRange;
+use crate::parameters::OutOfRange;
 use serde::{Deserialize, Serialize};
-use std::borrow::Cow;
 
 /// Largest magnitude of an integer bound: every integer up to it is an `f64`.
 const MAX_INTEGER: f64 = 9_007_199_254_740_992.0;
@@ -79,7 +78,7 @@ impl Dimension {
             _ => f64::MAX,
         };
         let fault = |which: &str, value: f64, range: String| OutOfRange {
-            key: Cow::Owned(format!("{which} of {}", self.name)),
+            key: format!("{which} of {}", self.name),
             value,
             range,
         };
@@ -174,7 +173,7 @@ impl ParameterSpace {
     pub(super) fn check(&self) -> Result<(), TuningError> {
         if self.dimensions.is_empty() {
             return Err(TuningError::OutOfRange(OutOfRange {
-                key: Cow::Borrowed("number of dimensions"),
+                key: "number of dimensions".to_owned(),
                 value: 0.0,
                 range: "at least 1".to_owned(),
             }));
@@ -209,7 +208,7 @@ impl ParameterSpace {
     pub fn position(&self, values: &[f64]) -> Result<Vec<f64>, TuningError> {
         if values.len() != self.dimensions.len() {
             return Err(TuningError::OutOfRange(OutOfRange {
-                key: Cow::Borrowed("number of values"),
+                key: "number of values".to_owned(),
                 value: values.len() as f64,
                 range: format!("{}, one for each dimension", self.dimensions.len()),
             }));
@@ -221,7 +220,7 @@ impl ParameterSpace {
                 return Ok(dimension.place(value));
             }
             Err(TuningError::OutOfRange(OutOfRange {
-                key: Cow::Owned(dimension.name.clone()),
+                key: dimension.name.clone(),
                 value,
                 range: format!("in {low} to {high}"),
             }))

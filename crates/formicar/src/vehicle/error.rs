@@ -1,6 +1,7 @@
 //! What can be wrong with a vehicle.
 
 use crate::geometry::PolygonError;
+use crate::parameters::OutOfRange;
 use thiserror::Error;
 
 /// What is wrong with a vehicle.
@@ -8,15 +9,8 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum VehicleError {
     /// A measure outside its range.
-    #[error("vehicle {name} = {value}; it must be {range}")]
-    OutOfRange {
-        /// The measure.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-        /// What is allowed.
-        range: &'static str,
-    },
+    #[error("vehicle {0}")]
+    OutOfRange(#[from] OutOfRange),
     /// A measure is missing.
     #[error("vehicle {name} is missing; hint: {hint}")]
     Missing {

@@ -1,72 +1,78 @@
 //! A vehicle as users write it down.
 
 use crate::geometry::Point2;
+use crate::parameters::{Parameters, parameters};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
+use std::ops::Bound::{self, Excluded, Included};
 
-/// The measures of a vehicle, as in a vehicle file; [`super::Vehicle::new`] checks them.
-///
-/// Either the five lengths give a rectangle, or `footprint` gives any convex polygon. One of
-/// `max_steer_rad` (or `max_steer_deg`) and `min_turning_radius_m` sets the steering limit; where
-/// both stand they must agree to 1 %.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct VehicleParameters {
-    /// Distance between the axles, metres, above 0. May be left out where a footprint and a
-    /// turning radius are given; steering angles are then unknown.
-    #[serde(alias = "wheelbase", skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1e6))]
-    pub wheelbase_m: Option<f64>,
-    /// Distance between the wheels of an axle, metres, above 0 and at most the width of the body;
-    /// default 0.8 of it.
-    #[serde(alias = "track_width", skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1e6))]
-    pub track_width_m: Option<f64>,
-    /// From the front axle to the front end, metres, at least 0.
-    #[serde(alias = "front_overhang", skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0), extend("exclusiveMaximum" = 1e6))]
-    pub front_overhang_m: Option<f64>,
-    /// From the rear axle to the rear end, metres, at least 0.
-    #[serde(alias = "rear_overhang", skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0), extend("exclusiveMaximum" = 1e6))]
-    pub rear_overhang_m: Option<f64>,
-    /// Width of the body, metres, above 0.
-    #[serde(alias = "width", skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1e6))]
-    pub width_m: Option<f64>,
-    /// The body as a polygon around the rear axle instead: a list of `[x, y]`, or a ROS string
-    /// `"[[x1, y1], [x2, y2], ...]"`; at least 3 points, made convex.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub footprint: Option<FootprintSpec>,
-    /// Largest steering angle of the virtual middle wheel, radians, in (0, pi/2).
-    #[serde(alias = "max_steer", skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = FRAC_PI_2))]
-    pub max_steer_rad: Option<f64>,
-    /// The same in degrees, in (0, 90).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 90.0))]
-    pub max_steer_deg: Option<f64>,
-    /// Smallest turning radius of the rear-axle centre, metres, above 0 and up to 100 000.
-    #[serde(
-        alias = "min_turning_radius",
-        alias = "r_min",
-        skip_serializing_if = "Option::is_none"
-    )]
-    #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1e5))]
-    pub min_turning_radius_m: Option<f64>,
-    /// Grows the footprint on every side, metres, at least 0; default 0.
-    #[serde(alias = "safety_margin", skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0), extend("exclusiveMaximum" = 1e6))]
-    pub safety_margin_m: Option<f64>,
-    /// Fastest change of the steering angle, radians per second, above 0.
-    #[serde(alias = "max_steer_rate", skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1e6))]
-    pub max_steer_rate_rad_per_s: Option<f64>,
-    /// Driving speed, metres per second, above 0.
-    #[serde(alias = "speed", skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1e6))]
-    pub speed_mps: Option<f64>,
+/// A measure above 0; what is larger than this is no vehicle.
+const POSITIVE: (Bound<f64>, Bound<f64>) = (Excluded(0.0), Excluded(1e6));
+
+parameters! {
+    /// The measures of a vehicle, as in a vehicle file; [`super::Vehicle::new`] checks them.
+    ///
+    /// Either the five lengths give a rectangle, or `footprint` gives any convex polygon. One of
+    /// `max_steer_rad` (or `max_steer_deg`) and `min_turning_radius_m` sets the steering limit; where
+    /// both stand they must agree to 1 %.
+    #[derive(Default)]
+    pub struct VehicleParameters {
+        /// Distance between the axles, meters. May be left out where a footprint and a
+        /// turning radius are given; steering angles are then unknown.
+        #[range(POSITIVE)]
+        #[serde(alias = "wheelbase", skip_serializing_if = "Option::is_none")]
+        pub wheelbase_m: Option<f64>,
+        /// Distance between the wheels of an axle, meters, at most the width of the body;
+        /// default 0.8 of it.
+        #[range(POSITIVE)]
+        #[serde(alias = "track_width", skip_serializing_if = "Option::is_none")]
+        pub track_width_m: Option<f64>,
+        /// From the front axle to the front end, meters.
+        #[range(0.0..1e6)]
+        #[serde(alias = "front_overhang", skip_serializing_if = "Option::is_none")]
+        pub front_overhang_m: Option<f64>,
+        /// From the rear axle to the rear end, meters.
+        #[range(0.0..1e6)]
+        #[serde(alias = "rear_overhang", skip_serializing_if = "Option::is_none")]
+        pub rear_overhang_m: Option<f64>,
+        /// Width of the body, meters.
+        #[range(POSITIVE)]
+        #[serde(alias = "width", skip_serializing_if = "Option::is_none")]
+        pub width_m: Option<f64>,
+        /// The body as a polygon around the rear axle instead: a list of `[x, y]`, or a ROS string
+        /// `"[[x1, y1], [x2, y2], ...]"`; at least 3 points, made convex.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub footprint: Option<FootprintSpec>,
+        /// Largest steering angle of the virtual middle wheel, radians.
+        #[range((Excluded(0.0), Excluded(FRAC_PI_2)))]
+        #[serde(alias = "max_steer", skip_serializing_if = "Option::is_none")]
+        pub max_steer_rad: Option<f64>,
+        /// The same in degrees.
+        #[range((Excluded(0.0), Excluded(90.0)))]
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub max_steer_deg: Option<f64>,
+        /// Smallest turning radius of the rear-axle center, meters.
+        #[range((Excluded(0.0), Included(1e5)))]
+        #[serde(
+            alias = "min_turning_radius",
+            alias = "r_min",
+            skip_serializing_if = "Option::is_none"
+        )]
+        pub min_turning_radius_m: Option<f64>,
+        /// Grows the footprint on every side, meters; default 0.
+        #[range(0.0..1e6)]
+        #[serde(alias = "safety_margin", skip_serializing_if = "Option::is_none")]
+        pub safety_margin_m: Option<f64>,
+        /// Fastest change of the steering angle, radians per second.
+        #[range(POSITIVE)]
+        #[serde(alias = "max_steer_rate", skip_serializing_if = "Option::is_none")]
+        pub max_steer_rate_rad_per_s: Option<f64>,
+        /// Driving speed, meters per second.
+        #[range(POSITIVE)]
+        #[serde(alias = "speed", skip_serializing_if = "Option::is_none")]
+        pub speed_mps: Option<f64>,
+    }
 }
 
 /// A footprint as a list of points or as the string that ROS configurations hold.
@@ -78,6 +84,8 @@ pub enum FootprintSpec {
     /// `"[[x1, y1], [x2, y2], ...]"`, metres.
     RosString(String),
 }
+
+impl Parameters for FootprintSpec {}
 
 impl FootprintSpec {
     /// The points, or what is wrong with the string.

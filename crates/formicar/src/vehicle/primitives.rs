@@ -6,6 +6,7 @@
 
 use super::{Motion, Vehicle, VehicleError};
 use crate::geometry::{Arc, Point2, Pose2};
+use crate::parameters::{OutOfRange, Range};
 use std::f64::consts::{PI, TAU};
 
 /// The gears that motions may use.
@@ -102,19 +103,13 @@ impl PrimitiveSet {
             let (name, value) = ("max_curvature_per_m", max_curvature_per_m);
             return Err(VehicleError::TurnsOnTheSpot { name, value });
         }
-        if !(8..=3600).contains(&n_headings) {
-            return Err(VehicleError::OutOfRange {
-                name: "n_headings",
-                value: n_headings as f64,
-                range: "from 8 to 3600",
-            });
-        }
+        Range::of::<usize>(8..=3600).check("n_headings", &n_headings)?;
         if !(min_step_m > 0.0 && min_step_m * max_curvature_per_m <= PI) {
-            return Err(VehicleError::OutOfRange {
-                name: "min_step_m",
+            return Err(VehicleError::OutOfRange(OutOfRange {
+                key: "min_step_m".to_owned(),
                 value: min_step_m,
-                range: "above 0 and at most half the tightest circle",
-            });
+                range: "above 0 and at most half the tightest circle".to_owned(),
+            }));
         }
         let set = Self {
             n_headings,

@@ -2,6 +2,7 @@
 
 use super::{VehicleError, VehicleParameters};
 use crate::geometry::{ConvexPolygon, Point2};
+use crate::parameters::OutOfRange;
 use std::f64::consts::FRAC_PI_2;
 use xxhash_rust::xxh3::xxh3_128;
 
@@ -29,7 +30,8 @@ impl Vehicle {
     /// # Errors
     /// Measures that are missing, out of range or contradict each other.
     pub fn new(parameters: VehicleParameters) -> Result<Self, VehicleError> {
-        check_ranges(&parameters)?;
+        check_turning(&parameters)?;
+        parameters.check()?;
         let body = body(&parameters)?;
         check_track(&parameters, &body)?;
         let footprint = body.grown(parameters.safety_margin_m.unwrap_or(0.0));
@@ -142,47 +144,27 @@ impl Vehicle {
     }
 }
 
-fn check_ranges(p: &VehicleParameters) -> Result<(), VehicleError> {
-    let positive = [
-        ("wheelbase_m", p.wheelbase_m),
-        ("track_width_m", p.track_width_m),
-        ("width_m", p.width_m),
-        ("max_steer_rate_rad_per_s", p.max_steer_rate_rad_per_s),
-        ("speed_mps", p.speed_mps),
-    ];
-    let not_negative = [
-        ("front_overhang_m", p.front_overhang_m),
-        ("rear_overhang_m", p.rear_overhang_m),
-        ("safety_margin_m", p.safety_margin_m),
-        ("max_steer_rad", p.max_steer_rad),
-        ("max_steer_deg", p.max_steer_deg),
-        ("min_turning_radius_m", p.min_turning_radius_m),
-    ];
-    let in_range =
-        |v: f64, above_zero: bool| v.is_finite() && v < 1e6 && (v > 0.0 || !above_zero && v == 0.0);
-    let check = |list: &[(&'static str, Option<f64>)], above_zero: bool, range| {
-        let bad = list.iter().find_map(|&(name, value)| {
-            value
-                .filter(|&v| !in_range(v, above_zero))
-                .map(|value| (name, value))
-        });
-        bad.map_or(Ok(()), |(name, value)| {
-            Err(VehicleError::OutOfRange { name, value, range })
-        })
-    };
-    check(&positive, true, "finite, above 0 and below 1e6")?;
-    check(&not_negative, false, "finite, at least 0 and below 1e6")
+/// A vehicle without a turning radius is told apart from one with a wrong measure.
+fn check_turning(p: &VehicleParameters) -> Result<(), VehicleError> {
+    let steer_rad = p.max_steer_rad.or(p.max_steer_deg.map(f64::to_radians));
+    let spin = steer_rad.filter(|&steer_rad| steer_rad.is_finite() && steer_rad >= FRAC_PI_2);
+    let still = p.min_turning_radius_m.filter(|&radius_m| radius_m == 0.0);
+    let spin = spin.map(|value| ("max_steer_rad", value));
+    let still = still.map(|value| ("min_turning_radius_m", value));
+    spin.or(still).map_or(Ok(()), |(name, value)| {
+        Err(VehicleError::TurnsOnTheSpot { name, value })
+    })
 }
 
 /// Wheels that stick out of the body would touch what nobody looks for.
 fn check_track(p: &VehicleParameters, body: &ConvexPolygon) -> Result<(), VehicleError> {
     let (low, high) = body.bounds();
     match p.track_width_m {
-        Some(value) if value > high.y - low.y => Err(VehicleError::OutOfRange {
-            name: "track_width_m",
+        Some(value) if value > high.y - low.y => Err(VehicleError::OutOfRange(OutOfRange {
+            key: "track_width_m".to_owned(),
             value,
-            range: "at most the width of the body",
-        }),
+            range: "at most the width of the body".to_owned(),
+        })),
         _ => Ok(()),
     }
 }
@@ -217,11 +199,11 @@ const MAX_TURNING_RADIUS_M: f64 = 1e5;
 fn turning_radius(p: &VehicleParameters) -> Result<f64, VehicleError> {
     let radius_m = stated_turning_radius(p)?;
     if radius_m > MAX_TURNING_RADIUS_M {
-        return Err(VehicleError::OutOfRange {
-            name: "min_turning_radius_m",
+        return Err(VehicleError::OutOfRange(OutOfRange {
+            key: "min_turning_radius_m".to_owned(),
             value: radius_m,
-            range: "at most 1e5, stated or implied by max_steer",
-        });
+            range: "at most 1e5, stated or implied by max_steer".to_owned(),
+        }));
     }
     Ok(radius_m)
 }
@@ -230,19 +212,6 @@ fn stated_turning_radius(p: &VehicleParameters) -> Result<f64, VehicleError> {
     let from_degrees = p.max_steer_deg.map(f64::to_radians);
     let steer = p.max_steer_rad.or(from_degrees);
     let implied = match (steer, p.wheelbase_m) {
-        (Some(steer_rad), _) if steer_rad >= FRAC_PI_2 => {
-            return Err(VehicleError::TurnsOnTheSpot {
-                name: "max_steer_rad",
-                value: steer_rad,
-            });
-        }
-        (Some(0.0), _) => {
-            return Err(VehicleError::OutOfRange {
-                name: "max_steer_rad",
-                value: 0.0,
-                range: "in (0, pi/2)",
-            });
-        }
         (Some(steer_rad), Some(wheelbase)) => Some((steer_rad, wheelbase / steer_rad.tan())),
         (Some(_), None) if p.min_turning_radius_m.is_none() => {
             let hint = "max_steer needs it; or give min_turning_radius_m";
@@ -254,10 +223,6 @@ fn stated_turning_radius(p: &VehicleParameters) -> Result<f64, VehicleError> {
         _ => None,
     };
     match (p.min_turning_radius_m, implied) {
-        (Some(0.0), _) => Err(VehicleError::TurnsOnTheSpot {
-            name: "min_turning_radius_m",
-            value: 0.0,
-        }),
         (Some(radius_m), Some((steer_rad, implied_m)))
             if (radius_m / implied_m - 1.0).abs() > 0.01 =>
         {

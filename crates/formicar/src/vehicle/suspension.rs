@@ -5,63 +5,43 @@
 //! vehicle reaches less curvature with the same steering limit. How the deflection follows the
 //! lateral force, and how curvature is felt, is of fractional order: both remember.
 
-use crate::numeric::{
-    FractionalDerivative, FractionalStream, OutOfRange, check_range, grunwald_letnikov_weights,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::numeric::{FractionalDerivative, FractionalStream, grunwald_letnikov_weights};
+use crate::parameters::{OutOfRange, parameters};
 use std::collections::VecDeque;
 
-/// Parameters of suspension and memory. The default is that of a small loaded car at 2 m/s.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct SuspensionParameters {
-    /// Mass carried by the suspension, from 0 to 1e6 kg.
-    #[schemars(range(min = 0.0, max = 1e6))]
-    pub mass_kg: f64,
-    /// Deflection per lateral force, from 0 (rigid) to 1 m/N: the inverse of the stiffness k.
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub compliance_m_per_n: f64,
-    /// Damping over stiffness, c / k, from 0 to 1e3 s^gamma.
-    #[schemars(range(min = 0.0, max = 1e3))]
-    pub relaxation: f64,
-    /// gamma: order of the damping, above 0 and up to 1; 1 is viscous.
-    #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1.0))]
-    pub damping_order: f64,
-    /// How far the wheel moves inward per deflection, from 0 to 100.
-    #[schemars(range(min = 0.0, max = 100.0))]
-    pub inward_gain: f64,
-    /// How far the wheel moves forward per deflection, from -100 to 100.
-    #[schemars(range(min = -100.0, max = 100.0))]
-    pub forward_gain: f64,
-    /// Speed, from 0 to 100 m/s.
-    #[schemars(range(min = 0.0, max = 100.0))]
-    pub speed_mps: f64,
-    /// rho: order of the heading's derivative, above 0 and up to 1; 1 has no memory.
-    #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1.0))]
-    pub heading_order: f64,
-    /// Order of the arc length's derivative, above 0 and up to 1; 1 has no memory.
-    #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1.0))]
-    pub arc_order: f64,
-    /// Samples that are remembered, from 1 to 10 000.
-    #[schemars(range(min = 1, max = 10_000))]
-    pub window: u32,
-}
-
-impl Default for SuspensionParameters {
-    fn default() -> Self {
-        Self {
-            mass_kg: 300.0,
-            compliance_m_per_n: 5e-5,
-            relaxation: 0.2,
-            damping_order: 0.5,
-            inward_gain: 1.0,
-            forward_gain: 0.0,
-            speed_mps: 2.0,
-            heading_order: 0.9,
-            arc_order: 0.9,
-            window: 8,
-        }
+parameters! {
+    /// Parameters of suspension and memory. The default is that of a small loaded car at 2 m/s.
+    pub struct SuspensionParameters {
+        /// Mass carried by the suspension, kg.
+        #[range(0.0..=1e6)]
+        pub mass_kg: f64 = 300.0,
+        /// Deflection per lateral force, m/N, the inverse of the stiffness k; 0 is rigid.
+        #[range(0.0..=1.0)]
+        pub compliance_m_per_n: f64 = 5e-5,
+        /// Damping over stiffness, c / k, in s^γ.
+        #[range(0.0..=1e3)]
+        pub relaxation: f64 = 0.2,
+        /// γ: order of the damping; 1 is viscous.
+        #[range(1e-6..=1.0)]
+        pub damping_order: f64 = 0.5,
+        /// How far the wheel moves inward per deflection.
+        #[range(0.0..=100.0)]
+        pub inward_gain: f64 = 1.0,
+        /// How far the wheel moves forward per deflection.
+        #[range(-100.0..=100.0)]
+        pub forward_gain: f64 = 0.0,
+        /// Speed, m/s.
+        #[range(0.0..=100.0)]
+        pub speed_mps: f64 = 2.0,
+        /// ρ: order of the heading's derivative; 1 has no memory.
+        #[range(1e-6..=1.0)]
+        pub heading_order: f64 = 0.9,
+        /// Order of the arc length's derivative; 1 has no memory.
+        #[range(1e-6..=1.0)]
+        pub arc_order: f64 = 0.9,
+        /// Samples that are remembered.
+        #[range(1..=10_000)]
+        pub window: u32 = 8,
     }
 }
 
@@ -74,29 +54,6 @@ impl SuspensionParameters {
             arc_order: 1.0,
             ..Self::default()
         }
-    }
-
-    /// Checks the ranges.
-    ///
-    /// # Errors
-    /// The first parameter outside its range.
-    pub fn check(&self) -> Result<(), OutOfRange> {
-        const LEAST_ORDER: f64 = 1e-6;
-        check_range("suspension.mass_kg", self.mass_kg, 0.0..=1e6)?;
-        let compliance = self.compliance_m_per_n;
-        check_range("suspension.compliance_m_per_n", compliance, 0.0..=1.0)?;
-        check_range("suspension.relaxation", self.relaxation, 0.0..=1e3)?;
-        for (key, order) in [
-            ("suspension.damping_order", self.damping_order),
-            ("suspension.heading_order", self.heading_order),
-            ("suspension.arc_order", self.arc_order),
-        ] {
-            check_range(key, order, LEAST_ORDER..=1.0)?;
-        }
-        check_range("suspension.inward_gain", self.inward_gain, 0.0..=100.0)?;
-        check_range("suspension.forward_gain", self.forward_gain, -100.0..=100.0)?;
-        check_range("suspension.speed_mps", self.speed_mps, 0.0..=100.0)?;
-        check_range("suspension.window", f64::from(self.window), 1.0..=1e4)
     }
 }
 

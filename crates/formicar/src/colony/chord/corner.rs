@@ -1,34 +1,34 @@
 //! The cost of the corner before a step.
 
-use crate::numeric::{OutOfRange, check_range};
+use crate::parameters::{Parameters, parameters, rules};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// omega of Li 2024 (18): what the corner before a step costs, in terms of the steering phi that
-/// it needs and the steering `phi_c` that the vehicle has; a step that needs more is none.
-///
-/// The factor of the generation k of N is (N - k) / k. It makes corners matter most at first, and
-/// not at all in the last generation.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "rule", rename_all = "kebab-case")]
-pub enum CornerTerm {
-    /// omega = epsilon G |phi| / `phi_c` (N - k) / k, read as a product.
-    Product(CornerRule),
-    /// omega = (epsilon G + |phi| / `phi_c`) (N - k) / k, read as a sum.
-    Sum(CornerRule),
-    /// Corners cost nothing.
-    None,
+rules! {
+    /// omega of Li 2024 (18): what the corner before a step costs, in terms of the steering phi
+    /// that it needs and the steering `phi_c` that the vehicle has; a step that needs more is none.
+    ///
+    /// The factor of the generation k of N is (N - k) / k. It makes corners matter most at first,
+    /// and not at all in the last generation.
+    pub enum CornerTerm {
+        /// omega = epsilon G |phi| / `phi_c` (N - k) / k, read as a product.
+        Product(CornerRule),
+        /// omega = (epsilon G + |phi| / `phi_c`) (N - k) / k, read as a sum.
+        Sum(CornerRule),
+        /// Corners cost nothing.
+        None,
+    }
 }
 
-/// Parameters of the corner term.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct CornerRule {
-    /// epsilon, from 0 to 1e6.
-    #[schemars(range(min = 0.0, max = 1e6))]
-    pub epsilon: f64,
-    /// What G is.
-    pub straightness: StraightnessUse,
+parameters! {
+    /// Parameters of the corner term.
+    pub struct CornerRule {
+        /// ε: weight of the turn.
+        #[range(0.0..=1e6)]
+        pub epsilon: f64 = 0.1,
+        /// What G is.
+        pub straightness: StraightnessUse = StraightnessUse::MeanTurn,
+    }
 }
 
 /// What G is in the corner term.
@@ -42,25 +42,9 @@ pub enum StraightnessUse {
     One,
 }
 
-impl Default for CornerRule {
-    fn default() -> Self {
-        Self {
-            epsilon: 0.1,
-            straightness: StraightnessUse::MeanTurn,
-        }
-    }
-}
+impl Parameters for StraightnessUse {}
 
 impl CornerTerm {
-    pub(super) fn check(&self) -> Result<(), OutOfRange> {
-        match self {
-            Self::Product(rule) | Self::Sum(rule) => {
-                check_range("chords.corner.epsilon", rule.epsilon, 0.0..=1e6)
-            }
-            Self::None => Ok(()),
-        }
-    }
-
     /// omega of a step that needs a share |phi| / `phi_c` of the steering, with G and the factor
     /// of the generation.
     #[inline]

@@ -1,30 +1,30 @@
 //! Deposits of pheromone by the spread of turns and by length.
 
 use crate::colony::generation::Generation;
-use crate::numeric::{OutOfRange, check_range};
 use crate::objective::PolylineCost;
+use crate::parameters::{Parameters, parameters};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// dtau = `P_h` (kappa1 `W_ref` / W + kappa2 `L_ref` / L) of Li 2024 (23), with W the mean squared
-/// deviation of the walking angle, at least (1 degree)^2, and L the length of a way.
-///
-/// The references are those of the shortest path over cells, so that both parts have one scale
-/// (a reading: the paper divides by W and by L).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct SpreadDeposit {
-    /// kappa1: weight of the spread of turns, from 0 to 1e6.
-    #[schemars(range(min = 0.0, max = 1e6))]
-    pub spread_weight: f64,
-    /// kappa2: weight of the length, from 0 to 1e6.
-    #[schemars(range(min = 0.0, max = 1e6))]
-    pub length_weight: f64,
-    /// `P_h`: pheromone, from 1e-6 to 1e6.
-    #[schemars(range(min = 1e-6, max = 1e6))]
-    pub pheromone: f64,
-    /// Which ants deposit.
-    pub by: Depositor,
+parameters! {
+    /// dtau = `P_h` (kappa1 `W_ref` / W + kappa2 `L_ref` / L) of Li 2024 (23), with W the mean
+    /// squared deviation of the walking angle, at least (1 degree)^2, and L the length of a way.
+    ///
+    /// The references are those of the shortest path over cells, so that both parts have one scale
+    /// (a reading: the paper divides by W and by L).
+    pub struct SpreadDeposit {
+        /// κ₁: weight of the spread of turns.
+        #[range(0.0..=1e6)]
+        pub spread_weight: f64 = 0.8,
+        /// κ₂: weight of the length.
+        #[range(0.0..=1e6)]
+        pub length_weight: f64 = 0.2,
+        /// `P_h`: pheromone.
+        #[range(1e-6..=1e6)]
+        pub pheromone: f64 = 1.0,
+        /// Which ants deposit.
+        pub by: Depositor = Depositor::Best,
+    }
 }
 
 /// Which ants deposit.
@@ -38,35 +38,12 @@ pub enum Depositor {
     All,
 }
 
+impl Parameters for Depositor {}
+
 /// The least W: (1 degree)^2.
 const MIN_VARIANCE_RAD2: f64 = 3.046_174_197_867_086e-4;
 
-impl Default for SpreadDeposit {
-    fn default() -> Self {
-        Self {
-            spread_weight: 0.8,
-            length_weight: 0.2,
-            pheromone: 1.0,
-            by: Depositor::Best,
-        }
-    }
-}
-
 impl SpreadDeposit {
-    pub(super) fn check(&self) -> Result<(), OutOfRange> {
-        check_range(
-            "chords.deposit.spread_weight",
-            self.spread_weight,
-            0.0..=1e6,
-        )?;
-        check_range(
-            "chords.deposit.length_weight",
-            self.length_weight,
-            0.0..=1e6,
-        )?;
-        check_range("chords.deposit.pheromone", self.pheromone, 1e-6..=1e6)
-    }
-
     /// The amount along the reference path itself.
     pub(super) fn unit(&self) -> f64 {
         self.pheromone * (self.spread_weight + self.length_weight)

@@ -6,7 +6,7 @@ use super::problem::ChordProblem;
 use super::ring::{Ring, moved};
 use super::safety::Guard;
 use crate::colony::corridor::Corridor;
-use crate::colony::error::{ColonyError, RunError};
+use crate::colony::error::RunError;
 use crate::colony::generation::StepSpace;
 use crate::geometry::{Point2, angle_difference};
 use crate::map::Cell;
@@ -80,8 +80,7 @@ impl<'a> ChordGraph<'a> {
         let ring = Ring::new(config.reach);
         let steering = problem.vehicle.steering_geometry();
         let step_m = mean(&ring.lengths) * resolution_m;
-        let suspended = SuspendedSteering::new(steering, config.limit.suspension(), step_m)
-            .map_err(ColonyError::from)?;
+        let suspended = SuspendedSteering::new(steering, config.limit.suspension(), step_m)?;
         let mut graph = Self {
             problem,
             config,

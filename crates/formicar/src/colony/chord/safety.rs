@@ -4,47 +4,28 @@ use crate::collision::{Body, Drive, ObstacleMap};
 use crate::geometry::{Point2, Pose2};
 use crate::layers::SweptMasks;
 use crate::map::{BitGrid, Cell};
-use crate::numeric::{OutOfRange, check_range};
+use crate::parameters::{parameters, rules};
 use crate::vehicle::{Vehicle, VehicleError};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
-/// phi1 of Li 2024 (16-17): a step is infinitely dear where it is not safe.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "rule", rename_all = "kebab-case")]
-pub enum Safety {
-    /// The footprint, turned into the step's direction, keeps off obstacles with a margin.
-    Footprint(FootprintSafety),
-    /// The disc about the rear axle that holds the footprint keeps off obstacles: what a map
-    /// grown by one radius does.
-    Disc,
-    /// The goal field alone keeps ants off obstacles.
-    None,
-}
-
-/// How far the footprint keeps off.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct FootprintSafety {
-    /// `L_tr`: margin around the body in cells, from 0 to 64.
-    #[schemars(range(min = 0.0, max = 64.0))]
-    pub margin_cells: f64,
-}
-
-impl Default for FootprintSafety {
-    fn default() -> Self {
-        Self { margin_cells: 0.5 }
+rules! {
+    /// phi1 of Li 2024 (16-17): a step is infinitely dear where it is not safe.
+    pub enum Safety {
+        /// The footprint, turned into the step's direction, keeps off obstacles with a margin.
+        Footprint(FootprintSafety),
+        /// The disc about the rear axle that holds the footprint keeps off obstacles: what a map
+        /// grown by one radius does.
+        Disc,
+        /// The goal field alone keeps ants off obstacles.
+        None,
     }
 }
 
-impl Safety {
-    pub(super) fn check(&self) -> Result<(), OutOfRange> {
-        match self {
-            Self::Footprint(rule) => {
-                check_range("chords.safety.margin_cells", rule.margin_cells, 0.0..=64.0)
-            }
-            Self::Disc | Self::None => Ok(()),
-        }
+parameters! {
+    /// How far the footprint keeps off.
+    pub struct FootprintSafety {
+        /// `L_tr`: margin around the body in cells.
+        #[range(0.0..=64.0)]
+        pub margin_cells: f64 = 0.5,
     }
 }
 

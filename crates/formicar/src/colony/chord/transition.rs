@@ -1,77 +1,46 @@
 //! Weights of the next step: fractional derivatives along the ant's own path.
 
-use crate::numeric::{OutOfRange, check_range, grunwald_letnikov_weights};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::numeric::grunwald_letnikov_weights;
+use crate::parameters::{parameters, rules};
 
-/// The most steps that a fractional transition remembers.
-pub(super) const MAX_WINDOW: usize = 64;
-
-/// How R, what a corner leaves of a step, and Q, what its way promises, enter the weight
-/// tau^beta1 R^beta2 Q^beta3 of a step (Li 2024, equation 25).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "rule", rename_all = "kebab-case")]
-pub enum ChordTransition {
-    /// By their fractional derivatives along the ant's last steps.
-    Fractional(FractionalTransition),
-    /// As they are.
-    Plain,
+rules! {
+    /// How R, what a corner leaves of a step, and Q, what its way promises, enter the weight
+    /// tau^beta1 R^beta2 Q^beta3 of a step (Li 2024, equation 25).
+    pub enum ChordTransition {
+        /// By their fractional derivatives along the ant's last steps.
+        Fractional(FractionalTransition),
+        /// As they are.
+        Plain,
+    }
 }
 
-/// `D^a1` R and `D^a2` Q of Li 2024 (25-27), Grünwald-Letnikov along the ant's own steps.
-///
-/// Values are relative to the best candidate of their step, and what is left after the
-/// derivative is at least a share of what was there before, since a derivative may be negative.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct FractionalTransition {
-    /// a1: order for corners, from 0 (none) to 1.
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub corner_order: f64,
-    /// a2: order for the distance, from 0 (none) to 1.
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub distance_order: f64,
-    /// Steps that are remembered, the present one among them, from 1 to 64.
-    #[schemars(range(min = 1, max = 64))]
-    pub window: u32,
-    /// The least share that a derivative leaves, from 1e-6 to 1.
-    #[schemars(range(min = 1e-6, max = 1.0))]
-    pub floor: f64,
-}
-
-impl Default for FractionalTransition {
-    fn default() -> Self {
-        Self {
-            corner_order: 0.5,
-            distance_order: 0.5,
-            window: 8,
-            floor: 0.05,
-        }
+parameters! {
+    /// `D^a1` R and `D^a2` Q of Li 2024 (25-27), Grünwald-Letnikov along the ant's own steps.
+    ///
+    /// Values are relative to the best candidate of their step, and what is left after the
+    /// derivative is at least a share of what was there before, since a derivative may be negative.
+    pub struct FractionalTransition {
+        /// α₁: order for corners; 0 is none.
+        #[range(0.0..=1.0)]
+        pub corner_order: f64 = 0.5,
+        /// α₂: order for the distance; 0 is none.
+        #[range(0.0..=1.0)]
+        pub distance_order: f64 = 0.5,
+        /// Steps that are remembered, the present one among them.
+        #[range(1..=64)]
+        pub window: u32 = 8,
+        /// The least share that a derivative leaves.
+        #[range(1e-6..=1.0)]
+        pub floor: f64 = 0.05,
     }
 }
 
 impl ChordTransition {
-    pub(super) fn check(&self) -> Result<(), OutOfRange> {
-        let Self::Fractional(rule) = self else {
-            return Ok(());
-        };
-        let orders = [
-            ("chords.transition.corner_order", rule.corner_order),
-            ("chords.transition.distance_order", rule.distance_order),
-        ];
-        for (key, order) in orders {
-            check_range(key, order, 0.0..=1.0)?;
-        }
-        let window = f64::from(rule.window);
-        check_range("chords.transition.window", window, 1.0..=MAX_WINDOW as f64)?;
-        check_range("chords.transition.floor", rule.floor, 1e-6..=1.0)
-    }
-
     /// The memories of R and Q of an ant.
     pub(super) fn memories(&self) -> [Memory; 2] {
         match self {
             Self::Fractional(rule) => {
-                let window = (rule.window as usize).min(MAX_WINDOW);
+                let window = rule.window as usize;
                 [rule.corner_order, rule.distance_order]
                     .map(|order| Memory::new(order, window, rule.floor))
             }

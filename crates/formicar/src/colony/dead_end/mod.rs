@@ -4,18 +4,18 @@ mod retreat;
 
 pub use retreat::Retreat;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::parameters::rules;
 
-/// The behavior of an ant at a dead end, where every neighbor is blocked or visited.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "rule", rename_all = "kebab-case")]
-pub enum DeadEnd {
-    /// It dies.
-    #[default]
-    Die,
-    /// It steps back.
-    Retreat(Retreat),
+rules! {
+    /// The behavior of an ant at a dead end, where every neighbor is blocked or visited.
+    #[derive(Default, Eq)]
+    pub enum DeadEnd {
+        /// It dies.
+        #[default]
+        Die,
+        /// It steps back.
+        Retreat(Retreat),
+    }
 }
 
 impl DeadEnd {

@@ -1,38 +1,22 @@
 //! The best ant alone deposits (Stützle & Hoos 2000).
 
 use super::{Generation, Memory, Portion, along, from_ant};
-use crate::numeric::{OutOfRange, check_range};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::parameters::parameters;
 
-/// Q / F from the best ant of the iteration; every few iterations from the best so far instead.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct BestAnt {
-    /// Q, from 1e-6 to 1e9.
-    #[schemars(range(min = 1e-6, max = 1e9))]
-    pub q: f64,
-    /// Every so many iterations the best so far deposits; 1 for always, 0 for never, at most
-    /// 1 000 000.
-    #[schemars(range(min = 0, max = 1_000_000))]
-    pub best_so_far_every: u32,
-}
-
-impl Default for BestAnt {
-    fn default() -> Self {
-        Self {
-            q: 1.0,
-            best_so_far_every: 5,
-        }
+parameters! {
+    /// Q / F from the best ant of the iteration; every few iterations from the best so far instead.
+    pub struct BestAnt {
+        /// Q: pheromone of a deposit, times the cost of the path.
+        #[range(1e-6..=1e9)]
+        pub q: f64 = 1.0,
+        /// Every so many iterations the best so far deposits; 1 for always, 0 for never, at most 1
+        /// 000 000.
+        #[range(0..=1_000_000)]
+        pub best_so_far_every: u32 = 5,
     }
 }
 
 impl BestAnt {
-    pub(super) fn check(&self) -> Result<(), OutOfRange> {
-        let every = f64::from(self.best_so_far_every);
-        check_range("colony.deposit.best_so_far_every", every, 0.0..=1e6)
-    }
-
     pub(super) fn deposits<'a>(
         &self,
         iteration: u32,

@@ -1,23 +1,16 @@
 //! The best way so far gains, the worst so far loses (Wang 2019).
 
 use super::{Memory, Portion, along};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::parameters::parameters;
 
-/// +Q / l along the best way so far and -Q / l along the worst so far: Wang 2019 (10-12).
-///
-/// Both where both pass; nothing is taken where the worst costs no more than the best.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct BestWorst {
-    /// Q, from 1e-6 to 1e9.
-    #[schemars(range(min = 1e-6, max = 1e9))]
-    pub q: f64,
-}
-
-impl Default for BestWorst {
-    fn default() -> Self {
-        Self { q: 100.0 }
+parameters! {
+    /// +Q / l along the best way so far and -Q / l along the worst so far: Wang 2019 (10-12).
+    ///
+    /// Both where both pass; nothing is taken where the worst costs no more than the best.
+    pub struct BestWorst {
+        /// Q: pheromone of a deposit, times the cost of the path.
+        #[range(1e-6..=1e9)]
+        pub q: f64 = 100.0,
     }
 }
 

@@ -14,24 +14,22 @@ pub use fittest::Fittest;
 
 use super::cost::CellCost;
 use super::{generation, memory};
-use crate::numeric::{OutOfRange, check_range};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::parameters::rules;
 
-/// Who deposits pheromone after an iteration. F is the cost of a way.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "rule", rename_all = "kebab-case")]
-pub enum Deposit {
-    /// Every ant that arrived.
-    AllAnts(AllAnts),
-    /// Every ant that arrived, and the best so far many times more.
-    Elitist(Elitist),
-    /// The best ant alone.
-    BestAnt(BestAnt),
-    /// The better ones among those that arrived.
-    Fittest(Fittest),
-    /// The best so far adds, the worst so far takes.
-    BestWorst(BestWorst),
+rules! {
+    /// Who deposits pheromone after an iteration. F is the cost of a way.
+    pub enum Deposit {
+        /// Every ant that arrived.
+        AllAnts(AllAnts),
+        /// Every ant that arrived, and the best so far many times more.
+        Elitist(Elitist),
+        /// The best ant alone.
+        BestAnt(BestAnt),
+        /// The better ones among those that arrived.
+        Fittest(Fittest),
+        /// The best so far adds, the worst so far takes.
+        BestWorst(BestWorst),
+    }
 }
 
 type Generation = generation::Generation<CellCost>;
@@ -42,16 +40,6 @@ type Memory = memory::Memory<CellCost>;
 pub(super) type Portion<'a> = (&'a [u8], f64);
 
 impl Deposit {
-    pub(super) fn check(&self) -> Result<(), OutOfRange> {
-        check_range("colony.deposit.q", self.q(), 1e-6..=1e9)?;
-        match self {
-            Self::AllAnts(_) | Self::BestWorst(_) => Ok(()),
-            Self::Elitist(rule) => rule.check(),
-            Self::BestAnt(rule) => rule.check(),
-            Self::Fittest(rule) => rule.check(),
-        }
-    }
-
     fn q(&self) -> f64 {
         match self {
             Self::AllAnts(rule) => rule.q,

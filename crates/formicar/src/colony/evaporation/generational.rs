@@ -1,29 +1,29 @@
 //! Evaporation that settles as the generations go by.
 
-use crate::numeric::{OutOfRange, check_range};
+use crate::parameters::{Parameters, parameters};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// zeta(t) = zeta(0) a^(t / N) in generation t of N, from zeta(0) to a zeta(0): a reading of Li
-/// 2024 (24), whose text has it largest at first and settling later.
-///
-/// To the letter, [`Recursion::Compound`], each generation multiplies the last one's share by
-/// a^(t / N): the powers add up, and evaporation all but ends after a few generations, so that it
-/// takes a floor.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct Generational {
-    /// zeta(0): share that evaporates at first, from 0 to 1.
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub rho: f64,
-    /// a: what is left of that share in the last generation, from 0.001 to 1.
-    #[schemars(range(min = 0.001, max = 1.0))]
-    pub decay: f64,
-    /// Whether shares are multiplied on from generation to generation.
-    pub recursion: Recursion,
-    /// The least share, from 0 to 1.
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub rho_min: f64,
+parameters! {
+    /// zeta(t) = zeta(0) a^(t / N) in generation t of N, from zeta(0) to a zeta(0): a reading of Li
+    /// 2024 (24), whose text has it largest at first and settling later.
+    ///
+    /// To the letter, [`Recursion::Compound`], each generation multiplies the last one's share by
+    /// a^(t / N): the powers add up, and evaporation all but ends after a few generations, so that
+    /// it takes a floor.
+    pub struct Generational {
+        /// ζ₀: share that evaporates at first.
+        #[range(0.0..=1.0)]
+        pub rho: f64 = 0.5,
+        /// a: what is left of that share in the last generation.
+        #[range(0.001..=1.0)]
+        pub decay: f64 = 0.4,
+        /// Whether shares are multiplied on from generation to generation.
+        pub recursion: Recursion = Recursion::Direct,
+        /// The least share.
+        #[range(0.0..=1.0)]
+        pub rho_min: f64 = 0.05,
+    }
 }
 
 /// Whether shares are multiplied on from generation to generation.
@@ -37,24 +37,9 @@ pub enum Recursion {
     Compound,
 }
 
-impl Default for Generational {
-    fn default() -> Self {
-        Self {
-            rho: 0.5,
-            decay: 0.4,
-            recursion: Recursion::Direct,
-            rho_min: 0.05,
-        }
-    }
-}
+impl Parameters for Recursion {}
 
 impl Generational {
-    pub(super) fn check(&self) -> Result<(), OutOfRange> {
-        check_range("colony.evaporation.rho", self.rho, 0.0..=1.0)?;
-        check_range("colony.evaporation.decay", self.decay, 0.001..=1.0)?;
-        check_range("colony.evaporation.rho_min", self.rho_min, 0.0..=1.0)
-    }
-
     /// rho after generation `iteration` of `n_iterations`, both counted from 0.
     pub fn rho(&self, iteration: u32, n_iterations: u32) -> f64 {
         let (t, n) = (f64::from(iteration), f64::from(n_iterations.max(1)));

@@ -10,31 +10,28 @@ pub use constant::Constant;
 pub use generational::{Generational, Recursion};
 pub use poisson::PoissonEvaporation;
 
-use super::ColonyError;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::parameters::{OutOfRange, rules};
 
-/// The share rho of the pheromone that evaporates after each iteration.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "rule", rename_all = "kebab-case")]
-pub enum Evaporation {
-    /// Always the same share.
-    Constant(Constant),
-    /// Much, then little, then much, along a Poisson distribution.
-    Poisson(PoissonEvaporation),
-    /// Less whenever the colony stagnates.
-    Adaptive(Adaptive),
-    /// Less from generation to generation.
-    Generational(Generational),
+rules! {
+    /// The share rho of the pheromone that evaporates after each iteration.
+    pub enum Evaporation {
+        /// Always the same share.
+        Constant(Constant),
+        /// Much, then little, then much, along a Poisson distribution.
+        Poisson(PoissonEvaporation),
+        /// Less whenever the colony stagnates.
+        Adaptive(Adaptive),
+        /// Less from generation to generation.
+        Generational(Generational),
+    }
 }
 
 impl Evaporation {
-    pub(super) fn check(&self, n_iterations: u32) -> Result<(), ColonyError> {
+    /// Checks what depends on the length of a run.
+    pub(super) fn check_run(&self, n_iterations: u32) -> Result<(), OutOfRange> {
         match self {
-            Self::Constant(rule) => Ok(rule.check()?),
-            Self::Poisson(rule) => rule.check(n_iterations),
-            Self::Adaptive(rule) => Ok(rule.check()?),
-            Self::Generational(rule) => Ok(rule.check()?),
+            Self::Poisson(rule) => rule.check_run(n_iterations),
+            Self::Constant(_) | Self::Adaptive(_) | Self::Generational(_) => Ok(()),
         }
     }
 

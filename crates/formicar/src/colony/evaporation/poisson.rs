@@ -1,63 +1,41 @@
 //! Evaporation along a Poisson distribution (Lei & Zheng 2020).
 
-use crate::colony::ColonyError;
-use crate::numeric::{OutOfRange, check_range, ln_gamma};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::numeric::ln_gamma;
+use crate::parameters::{OutOfRange, parameters};
 
-/// rho(k) = A lambda^k exp(-lambda) / k! + B: Lei & Zheng 2020 (1), "D-Rho".
-///
-/// k is the number of the iteration divided by `stretch`, and k! is Gamma(k + 1). At 1 the formula
-/// is taken to the letter: with lambda = 10 the trough lies at iterations 9 and 10. At N / 20 it
-/// lies in the middle of a run of N iterations, as the text on figure 5 has it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct PoissonEvaporation {
-    /// Mean of the distribution, from 1e-3 to 1000.
-    #[schemars(range(min = 1e-3, max = 1000.0))]
-    pub lambda: f64,
-    /// A: depth of the trough, negative, from -100 to 100.
-    #[schemars(range(min = -100.0, max = 100.0))]
-    pub amplitude: f64,
-    /// B: the share far from the trough, from 0 to 1.
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub offset: f64,
-    /// Iterations to a unit of k, from 1e-3 to 1e6.
-    #[schemars(range(min = 1e-3, max = 1e6))]
-    pub stretch: f64,
-}
-
-impl Default for PoissonEvaporation {
-    fn default() -> Self {
-        Self {
-            lambda: 10.0,
-            amplitude: -5.0,
-            offset: 0.9,
-            stretch: 1.0,
-        }
+parameters! {
+    /// rho(k) = A lambda^k exp(-lambda) / k! + B: Lei & Zheng 2020 (1), "D-Rho".
+    ///
+    /// k is the number of the iteration divided by `stretch`, and k! is Gamma(k + 1). At 1 the
+    /// formula is taken to the letter: with lambda = 10 the trough lies at iterations 9 and 10. At
+    /// N / 20 it lies in the middle of a run of N iterations, as the text on figure 5 has it.
+    pub struct PoissonEvaporation {
+        /// λ: mean of the distribution.
+        #[range(1e-3..=1000.0)]
+        pub lambda: f64 = 10.0,
+        /// A: depth of the trough, negative.
+        #[range(-100.0..=100.0)]
+        pub amplitude: f64 = -5.0,
+        /// B: the share far from the trough.
+        #[range(0.0..=1.0)]
+        pub offset: f64 = 0.9,
+        /// Iterations to a unit of k.
+        #[range(1e-3..=1e6)]
+        pub stretch: f64 = 1.0,
     }
 }
 
 impl PoissonEvaporation {
-    fn check_ranges(&self) -> Result<(), OutOfRange> {
-        check_range("colony.evaporation.lambda", self.lambda, 1e-3..=1e3)?;
-        check_range(
-            "colony.evaporation.amplitude",
-            self.amplitude,
-            -100.0..=100.0,
-        )?;
-        check_range("colony.evaporation.offset", self.offset, 0.0..=1.0)?;
-        check_range("colony.evaporation.stretch", self.stretch, 1e-3..=1e6)
-    }
-
-    pub(super) fn check(&self, n_iterations: u32) -> Result<(), ColonyError> {
-        self.check_ranges()?;
-        let rho = |iteration| (iteration, self.rho(iteration));
-        let bad = (0..n_iterations)
-            .map(rho)
-            .find(|&(_, rho)| rho <= 0.0 || rho >= 1.0);
+    /// Checks that the share stays between 0 and 1 in every iteration of a run.
+    pub(super) fn check_run(&self, n_iterations: u32) -> Result<(), OutOfRange> {
+        let mut shares = (0..n_iterations).map(|iteration| (iteration, self.rho(iteration)));
+        let bad = shares.find(|&(_, rho)| rho <= 0.0 || rho >= 1.0);
         bad.map_or(Ok(()), |(iteration, rho)| {
-            Err(ColonyError::Evaporation { iteration, rho })
+            Err(OutOfRange {
+                key: format!("rho at iteration {iteration}"),
+                value: rho,
+                range: "above 0 and below 1; hint: change amplitude or offset".to_owned(),
+            })
         })
     }
 
@@ -101,16 +79,13 @@ mod tests {
             offset: 0.6,
             ..PoissonEvaporation::default()
         };
-        let error = rule.check(150).unwrap_err();
-        assert!(matches!(
-            error,
-            ColonyError::Evaporation { iteration: 9, .. }
-        ));
-        assert!(rule.check(9).is_ok());
+        let error = rule.check_run(150).unwrap_err();
+        assert_eq!(error.key, "rho at iteration 9");
+        assert!(rule.check_run(9).is_ok());
         let just_enough = PoissonEvaporation {
             offset: 0.6256,
             ..PoissonEvaporation::default()
         };
-        assert!(just_enough.check(150).is_ok());
+        assert!(just_enough.check_run(150).is_ok());
     }
 }

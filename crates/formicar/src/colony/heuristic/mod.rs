@@ -14,45 +14,37 @@ pub use goal_field::GoalFieldGuidance;
 pub use step_length::StepLength;
 
 use super::ColonyProblem;
-use crate::numeric::OutOfRange;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::parameters::rules;
 
-/// What an ant sees of a cell: eta to the power of beta.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "rule", rename_all = "kebab-case")]
-pub enum Visibility {
-    /// Nothing.
-    #[default]
-    None,
-    /// How near it lies to the goal in a straight line.
-    GoalDistance(GoalDistance),
-    /// How short the step to it is.
-    StepLength(StepLength),
+rules! {
+    /// What an ant sees of a cell: eta to the power of beta.
+    #[derive(Default)]
+    pub enum Visibility {
+        /// Nothing.
+        #[default]
+        None,
+        /// How near it lies to the goal in a straight line.
+        GoalDistance(GoalDistance),
+        /// How short the step to it is.
+        StepLength(StepLength),
+    }
 }
 
-/// What an ant knows of the way from a cell to the goal, obstacles included.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "rule", rename_all = "kebab-case")]
-pub enum Guidance {
-    /// Nothing.
-    #[default]
-    None,
-    /// The length of the shortest way.
-    GoalField(GoalFieldGuidance),
-    /// How much of it a step saves.
-    Advantage(Advantage),
+rules! {
+    /// What an ant knows of the way from a cell to the goal, obstacles included.
+    #[derive(Default)]
+    pub enum Guidance {
+        /// Nothing.
+        #[default]
+        None,
+        /// The length of the shortest way.
+        GoalField(GoalFieldGuidance),
+        /// How much of it a step saves.
+        Advantage(Advantage),
+    }
 }
 
 impl Visibility {
-    pub(super) fn check(&self) -> Result<(), OutOfRange> {
-        match self {
-            Self::None => Ok(()),
-            Self::GoalDistance(rule) => rule.check(),
-            Self::StepLength(rule) => rule.check(),
-        }
-    }
-
     pub(super) fn add_to(&self, desire: &mut LogDesire, problem: &ColonyProblem, cells: &[u32]) {
         match self {
             Self::None => {}
@@ -63,14 +55,6 @@ impl Visibility {
 }
 
 impl Guidance {
-    pub(super) fn check(&self) -> Result<(), OutOfRange> {
-        match self {
-            Self::None => Ok(()),
-            Self::GoalField(rule) => rule.check(),
-            Self::Advantage(rule) => rule.check(),
-        }
-    }
-
     /// The logarithm of the factor for a step of a length that changes the way to go, all in
     /// cells.
     #[inline]

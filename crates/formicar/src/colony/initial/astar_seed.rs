@@ -1,44 +1,27 @@
 //! Pheromone laid out along a shortest path.
 
 use super::PheromoneUnit;
-use crate::numeric::{OutOfRange, check_range};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::parameters::parameters;
 
-/// tau0 = n c on the cells of a path that A* finds from start to goal, c on all others: Li 2024
-/// (21).
-///
-/// The path is a shortest one on the moves of the map. The paper gives c and n no values; a
-/// fivefold start is a reading.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct AstarSeed {
-    /// c: pheromone off the path, from 1e-6 to 1e6 units.
-    #[schemars(range(min = 1e-6, max = 1e6))]
-    pub tau: f64,
-    /// n: how many times that lies on the path, from 1e-3 to 1e3.
-    #[schemars(range(min = 1e-3, max = 1e3))]
-    pub factor: f64,
-    /// What a unit is.
-    pub unit: PheromoneUnit,
-}
-
-impl Default for AstarSeed {
-    fn default() -> Self {
-        Self {
-            tau: 1.0,
-            factor: 5.0,
-            unit: PheromoneUnit::Deposit,
-        }
+parameters! {
+    /// tau0 = n c on the cells of a path that A* finds from start to goal, c on all others: Li 2024
+    /// (21).
+    ///
+    /// The path is a shortest one on the moves of the map. The paper gives c and n no values; a
+    /// fivefold start is a reading.
+    pub struct AstarSeed {
+        /// c: pheromone off the path.
+        #[range(1e-6..=1e6)]
+        pub tau: f64 = 1.0,
+        /// n: how many times that lies on the path.
+        #[range(1e-3..=1e3)]
+        pub factor: f64 = 5.0,
+        /// What a unit is.
+        pub unit: PheromoneUnit = PheromoneUnit::Deposit,
     }
 }
 
 impl AstarSeed {
-    pub(in crate::colony) fn check(&self) -> Result<(), OutOfRange> {
-        check_range("colony.initial.tau", self.tau, 1e-6..=1e6)?;
-        check_range("colony.initial.factor", self.factor, 1e-3..=1e3)
-    }
-
     /// Pheromone at so many places, of which those that a path goes through are given.
     pub(in crate::colony) fn values(
         &self,

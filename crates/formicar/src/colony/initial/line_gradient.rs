@@ -2,41 +2,25 @@
 
 use super::PheromoneUnit;
 use crate::map::Cell;
-use crate::numeric::{OutOfRange, check_range};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::parameters::parameters;
 
-/// tau0 = `tau_min` + (`tau_max` - `tau_min`) (1 - d / `d_max`) with the distance d of a cell from
-/// the line through start and goal, `d_max` the largest on the map: Lei & Zheng 2020, sec. II.D.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct LineGradient {
-    /// Pheromone farthest from the line, from 1e-6 to 1e6 units.
-    #[schemars(range(min = 1e-6, max = 1e6))]
-    pub tau_min: f64,
-    /// Pheromone on the line, from 1e-6 to 1e6 units.
-    #[schemars(range(min = 1e-6, max = 1e6))]
-    pub tau_max: f64,
-    /// What a unit is.
-    pub unit: PheromoneUnit,
-}
-
-impl Default for LineGradient {
-    fn default() -> Self {
-        Self {
-            tau_min: 1.0,
-            tau_max: 2.0,
-            unit: PheromoneUnit::Deposit,
-        }
+parameters! {
+    /// tau0 = `tau_min` + (`tau_max` - `tau_min`) (1 - d / `d_max`) with the distance d of a cell
+    /// from the line through start and goal, `d_max` the largest on the map: Lei & Zheng 2020, sec.
+    /// II.D.
+    pub struct LineGradient {
+        /// Pheromone farthest from the line.
+        #[range(1e-6..=1e6)]
+        pub tau_min: f64 = 1.0,
+        /// Pheromone on the line.
+        #[range(1e-6..=1e6)]
+        pub tau_max: f64 = 2.0,
+        /// What a unit is.
+        pub unit: PheromoneUnit = PheromoneUnit::Deposit,
     }
 }
 
 impl LineGradient {
-    pub(super) fn check(&self) -> Result<(), OutOfRange> {
-        check_range("colony.initial.tau_min", self.tau_min, 1e-6..=1e6)?;
-        check_range("colony.initial.tau_max", self.tau_max, 1e-6..=1e6)
-    }
-
     /// Pheromone on some cells, row by row, and the least on the map.
     pub(super) fn values(
         &self,

@@ -10,22 +10,22 @@ pub use uniform::Uniform;
 
 use super::ColonyProblem;
 use crate::map::Cell;
-use crate::numeric::OutOfRange;
+use crate::parameters::{Parameters, rules};
 use crate::progress::{Limits, Status};
 use crate::search::{AstarWorkspace, SearchError, astar};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Pheromone before the first iteration.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "rule", rename_all = "kebab-case")]
-pub enum InitialPheromone {
-    /// The same everywhere.
-    Uniform(Uniform),
-    /// Most on the line from start to goal.
-    LineGradient(LineGradient),
-    /// Most on a shortest path.
-    AstarSeed(AstarSeed),
+rules! {
+    /// Pheromone before the first iteration.
+    pub enum InitialPheromone {
+        /// The same everywhere.
+        Uniform(Uniform),
+        /// Most on the line from start to goal.
+        LineGradient(LineGradient),
+        /// Most on a shortest path.
+        AstarSeed(AstarSeed),
+    }
 }
 
 /// What a unit of initial pheromone is.
@@ -40,15 +40,9 @@ pub enum PheromoneUnit {
     Deposit,
 }
 
-impl InitialPheromone {
-    pub(super) fn check(&self) -> Result<(), OutOfRange> {
-        match self {
-            Self::Uniform(rule) => rule.check(),
-            Self::LineGradient(rule) => rule.check(),
-            Self::AstarSeed(rule) => rule.check(),
-        }
-    }
+impl Parameters for PheromoneUnit {}
 
+impl InitialPheromone {
     pub(super) fn unit(&self) -> PheromoneUnit {
         match self {
             Self::Uniform(rule) => rule.unit,

@@ -2,33 +2,21 @@
 
 use crate::colony::cost::CellCost;
 use crate::colony::generation::AntPath;
-use crate::numeric::{OutOfRange, check_range};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::parameters::parameters;
 
-/// `tau_max` = Q / (rho F) with the cost F of the best path so far, and
-/// `tau_min` = `tau_max` (1 - p^(1/n)) / ((c - 1) p^(1/n)): with these limits a converged colony
-/// walks its best path of n steps again with probability p, where ants choose from c steps on
-/// average (Stützle & Hoos 2000, section 3.2).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct MaxMin {
-    /// p, from 1e-6 to 1; 1 leaves no lower limit.
-    #[schemars(range(min = 1e-6, max = 1.0))]
-    pub p_best: f64,
-}
-
-impl Default for MaxMin {
-    fn default() -> Self {
-        Self { p_best: 0.05 }
+parameters! {
+    /// `tau_max` = Q / (rho F) with the cost F of the best path so far, and `tau_min` = `tau_max`
+    /// (1 - p^(1/n)) / ((c - 1) p^(1/n)): with these limits a converged colony walks its best path
+    /// of n steps again with probability p, where ants choose from c steps on average (Stützle &
+    /// Hoos 2000, section 3.2).
+    pub struct MaxMin {
+        /// p: probability that a converged colony repeats its best path; 1 leaves no lower limit.
+        #[range(1e-6..=1.0)]
+        pub p_best: f64 = 0.05,
     }
 }
 
 impl MaxMin {
-    pub(super) fn check(&self) -> Result<(), OutOfRange> {
-        check_range("colony.limits.p_best", self.p_best, 1e-6..=1.0)
-    }
-
     pub(super) fn range(
         &self,
         n_choices: f64,

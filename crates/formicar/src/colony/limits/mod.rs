@@ -9,21 +9,20 @@ pub use max_min::MaxMin;
 use super::cost::CellCost;
 use super::generation::AntPath;
 use super::node::Node;
-use crate::numeric::OutOfRange;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::parameters::rules;
 
-/// Between which limits pheromone is kept after each iteration.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "rule", rename_all = "kebab-case")]
-pub enum PheromoneLimits {
-    /// No limits.
-    #[default]
-    None,
-    /// No less than a share of what there was at first.
-    Floor(Floor),
-    /// Those of the MAX-MIN Ant System.
-    MaxMin(MaxMin),
+rules! {
+    /// Between which limits pheromone is kept after each iteration.
+    #[derive(Default)]
+    pub enum PheromoneLimits {
+        /// No limits.
+        #[default]
+        None,
+        /// No less than a share of what there was at first.
+        Floor(Floor),
+        /// Those of the MAX-MIN Ant System.
+        MaxMin(MaxMin),
+    }
 }
 
 /// The quantities that limits refer to.
@@ -45,14 +44,6 @@ impl Bounds {
 }
 
 impl PheromoneLimits {
-    pub(super) fn check(&self) -> Result<(), OutOfRange> {
-        match self {
-            Self::None => Ok(()),
-            Self::Floor(rule) => rule.check(),
-            Self::MaxMin(rule) => rule.check(),
-        }
-    }
-
     /// Least and most pheromone. `lasting` is Q / rho: what is left of the deposits Q / F of one
     /// ant in the long run, times F.
     pub(super) fn range(

@@ -1,6 +1,7 @@
 //! Steps towards the goal first (Lei & Zheng 2020).
 
 use super::class;
+use crate::parameters::Parameters;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -9,6 +10,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GoalDirected {}
+
+impl Parameters for GoalDirected {}
 
 impl GoalDirected {
     pub(super) fn first_class(to_goal: (i64, i64)) -> u8 {

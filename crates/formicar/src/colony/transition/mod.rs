@@ -7,20 +7,20 @@ pub use goal_directed::GoalDirected;
 pub use oblique_first::ObliqueFirst;
 
 use crate::map::STEPS;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::parameters::rules;
 
-/// Classes of steps. Within a class the choice is by roulette, by pheromone and heuristic.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "rule", rename_all = "kebab-case")]
-pub enum Transition {
-    /// One class.
-    #[default]
-    Roulette,
-    /// Steps towards the goal first.
-    GoalDirected(GoalDirected),
-    /// Oblique steps towards the goal first.
-    ObliqueFirst(ObliqueFirst),
+rules! {
+    /// Classes of steps. Within a class the choice is by roulette, by pheromone and heuristic.
+    #[derive(Default, Eq)]
+    pub enum Transition {
+        /// One class.
+        #[default]
+        Roulette,
+        /// Steps towards the goal first.
+        GoalDirected(GoalDirected),
+        /// Oblique steps towards the goal first.
+        ObliqueFirst(ObliqueFirst),
+    }
 }
 
 impl Transition {

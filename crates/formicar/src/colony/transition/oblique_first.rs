@@ -1,6 +1,7 @@
 //! Oblique steps first (Joshy & Supriya 2016, as Wang 2019 describes them).
 
 use super::class;
+use crate::parameters::Parameters;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -9,6 +10,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ObliqueFirst {}
+
+impl Parameters for ObliqueFirst {}
 
 impl ObliqueFirst {
     pub(super) fn first_class(to_goal: (i64, i64)) -> u8 {

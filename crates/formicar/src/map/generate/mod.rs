@@ -12,6 +12,7 @@ pub use parameters::{NeighborhoodParameters, ScatterParameters};
 pub use scatter::scattered_obstacles;
 
 use super::MapError;
+use crate::parameters::OutOfRange;
 use thiserror::Error;
 
 /// Why a map or poses cannot be generated.
@@ -19,17 +20,8 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum GenerateError {
     /// A parameter outside its range.
-    #[error("{name} = {value}; it must be from {min} to {max}")]
-    OutOfRange {
-        /// The parameter.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-        /// Lowest value allowed.
-        min: f64,
-        /// Highest value allowed.
-        max: f64,
-    },
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
     /// Two parameters in the wrong order.
     #[error("{low_name} = {low} is above {high_name} = {high}; hint: exchange them")]
     Reversed {

@@ -6,6 +6,7 @@ use crate::collision::Drive;
 use crate::geometry::{Arc, Point2, Pose2, angle_difference};
 use crate::layers::SoftCosts;
 use crate::map::Cell;
+use crate::objective::DriveCost;
 use crate::scenario::{GoalTolerance, MotionMode, Request};
 use crate::vehicle::{Gears, PrimitiveSet};
 
@@ -15,6 +16,7 @@ pub struct DriveProblem<'a> {
     pub(super) map: &'a DrivableMap,
     pub(super) lattice: &'a Lattice,
     pub(super) config: &'a HybridAstarConfig,
+    pub(super) cost: DriveCost,
     motion: MotionMode,
     /// Gears of primitives.
     pub(super) gears: Gears,
@@ -42,6 +44,7 @@ impl<'a> DriveProblem<'a> {
             map,
             lattice: map.coarse(),
             config,
+            cost: config.cost(),
             motion: request.motion,
             gears: match request.motion {
                 MotionMode::Forward => Gears::Forward,

@@ -35,7 +35,7 @@ impl<'a> Search<'a> {
     pub(super) fn open_from(&mut self, junction: usize, facing: Facing) {
         let from = Node::Passing(junction, facing);
         let (map, cost) = (self.map, self.costs[from]);
-        let factor = self.task.gear_factor(facing.sign());
+        let factor = self.task.cost.gear_factor(facing.sign());
         if let Some((next, length_m)) = map.next_on_leg(junction) {
             let to = Node::Passing(next, facing);
             self.push(cost + factor * length_m, Span { from, to }, Step::Straight);

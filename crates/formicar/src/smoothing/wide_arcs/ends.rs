@@ -94,7 +94,7 @@ impl Search<'_> {
         let switch = if ends_forward(arcs.arcs()) {
             0.0
         } else {
-            self.task.config.direction_switching_cost
+            self.task.cost.gear_switch_m
         };
         if self.is_closed(from, sight) {
             return;

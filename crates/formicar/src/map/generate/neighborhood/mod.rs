@@ -23,6 +23,7 @@ pub fn alley_neighborhood(
     seed: Seed,
 ) -> Result<OccupancyGrid, GenerateError> {
     parameters.check()?;
+    parameters.check_alleys()?;
     let frame = frame_at_origin(
         parameters.n_cols,
         parameters.n_rows,
@@ -215,7 +216,7 @@ mod tests {
             alley_neighborhood(&parameters, Seed(0)).map_err(|e| e.to_string())
         };
         let error = with(|p| p.street_width_m = 3.0).unwrap_err();
-        assert_eq!(error, "street_width_m = 3; it must be from 4 to 20");
+        assert_eq!(error, "street_width_m = 3; it must be in 4 to 20");
         assert!(with(|p| p.yard_share = f64::NAN).is_err());
         assert!(with(|p| p.min_alley_width_m = 4.5).is_err());
         assert!(with(|p| p.n_cols = 50).is_err());
