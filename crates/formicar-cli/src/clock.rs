@@ -3,25 +3,12 @@
 use formicar::progress::{AntFrames, Event, Observer};
 use std::time::{Duration, Instant};
 
-/// Gives the time to a query and notes its certified paths.
+/// Gives the time to a query and counts its certified paths.
 #[derive(Debug)]
 pub(crate) struct Clock {
     begun: Instant,
-    paths: Vec<PathTold>,
-}
-
-/// A certified path, as reported to the observer.
-#[derive(Clone, Copy, Debug)]
-#[cfg_attr(
-    not(feature = "lab"),
-    allow(dead_code, reason = "measurements read all of it")
-)]
-pub(crate) struct PathTold {
-    /// The time since the query began.
-    pub(crate) at: Duration,
-    pub(crate) length_m: f64,
-    /// Search steps by then.
-    pub(crate) n_steps: u64,
+    first_feasible: Option<Duration>,
+    n_paths: u32,
 }
 
 impl Clock {
@@ -29,7 +16,8 @@ impl Clock {
     pub(crate) fn begin() -> Self {
         Self {
             begun: Instant::now(),
-            paths: Vec::new(),
+            first_feasible: None,
+            n_paths: 0,
         }
     }
 
@@ -40,32 +28,20 @@ impl Clock {
 
     /// Seconds from the beginning to the first certified path.
     pub(crate) fn first_feasible_s(&self) -> Option<f64> {
-        self.paths.first().map(|told| told.at.as_secs_f64())
+        self.first_feasible.map(|time| time.as_secs_f64())
     }
 
     /// The number of times that a better path replaced a certified one.
     pub(crate) fn n_improvements(&self) -> u32 {
-        u32::try_from(self.paths.len().saturating_sub(1)).unwrap_or(u32::MAX)
-    }
-
-    /// All certified paths, the best last.
-    #[cfg(feature = "lab")]
-    pub(crate) fn into_paths(self) -> Vec<PathTold> {
-        self.paths
+        self.n_paths.saturating_sub(1)
     }
 }
 
 impl Observer for Clock {
     fn on_event(&mut self, event: &Event) {
-        if let Event::Improved {
-            length_m, n_steps, ..
-        } = *event
-        {
-            self.paths.push(PathTold {
-                at: self.begun.elapsed(),
-                length_m,
-                n_steps,
-            });
+        if let Event::Improved { .. } = event {
+            self.first_feasible.get_or_insert(self.begun.elapsed());
+            self.n_paths += 1;
         }
     }
 

@@ -1,7 +1,5 @@
 //! A planner with the scene it was prepared for, and its answers to requests.
 
-#[cfg(feature = "lab")]
-use crate::clock::PathTold;
 use crate::clock::{Clock, Watch};
 use crate::failure::Ending;
 use crate::scene::Scene;
@@ -32,9 +30,6 @@ pub(crate) struct Answered {
     pub(crate) answer: Answer,
     pub(crate) result: Result<Outcome, PlanError>,
     pub(crate) n_improvements: u32,
-    /// The certified paths found on the way, the best last.
-    #[cfg(feature = "lab")]
-    pub(crate) paths: Vec<PathTold>,
 }
 
 impl Session {
@@ -93,8 +88,6 @@ impl Session {
                 .answer(request.as_ref(), seed, &result, timing),
             result,
             n_improvements: clock.n_improvements(),
-            #[cfg(feature = "lab")]
-            paths: clock.into_paths(),
         }
     }
 

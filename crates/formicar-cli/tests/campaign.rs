@@ -36,7 +36,7 @@ fn bench(room: &Room, store: &str) -> Run {
 
 /// How many runs a store holds, read beside the process that writes it.
 fn n_stored(room: &Room, store: &str) -> usize {
-    Stored::read(&room.path(store)).map_or(0, |stored| stored.records.len())
+    Stored::read(&room.path(store)).map_or(0, |stored| stored.runs.len())
 }
 
 /// Kills a campaign when its store holds some runs, and says how many; nothing where the campaign

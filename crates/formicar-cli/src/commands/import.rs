@@ -1,7 +1,6 @@
 //! `import`: files of other planners as rows of results, judged where they hold a path.
 #![allow(clippy::doc_markdown, reason = "clap prints these words as they stand")]
 
-use super::bench::measure;
 use crate::failure::{Ending, Failure};
 use crate::scene::SceneArgs;
 use crate::{files, scene, values};
@@ -12,9 +11,10 @@ use formicar::map::builtin::BuiltinMap;
 use formicar::map::format::write_atomically;
 use formicar::numeric::counted;
 use formicar::scenario::{GoalTolerance, MotionMode, Request};
-use formicar_lab::campaign::{OWN_VEHICLE, Record, read_csv, to_csv};
 use formicar_lab::rival::import::{Imported, read};
-use serde_json::json;
+use formicar_lab::run::{
+    Evaluation, OWN_VEHICLE, Origin, Run, RunRecord, RunStatus, read_csv, to_csv,
+};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -86,21 +86,20 @@ struct Place {
 pub(crate) fn run(args: &ImportArgs, out: &mut impl Write) -> Result<Ending, Failure> {
     check(args)?;
     let place = Place::of(args)?;
-    let mut records = Vec::new();
+    let mut runs = Vec::new();
     for (path, seed) in args.files.iter().zip(args.seed..) {
         let name = || path.display().to_string();
-        let runs = read(&files::read_document(path)?).with_context(name)?;
-        for imported in &runs {
-            records.push(record(args, &place, imported, seed).with_context(name)?);
+        for imported in &read(&files::read_document(path)?).with_context(name)? {
+            runs.push(run_of(args, &place, imported, seed).with_context(name)?);
         }
     }
-    let rows = merged(&args.out, &records)?;
+    let rows = merged(&args.out, &runs)?;
     write_atomically(&args.out, to_csv(&rows)?.as_bytes())
         .with_context(|| format!("{} cannot be written", args.out.display()))?;
-    for record in &records {
-        writeln!(out, "{}", line(record))?;
+    for run in &runs {
+        writeln!(out, "{}", line(&run.record))?;
     }
-    let (file, n_runs) = (args.out.display(), counted(records.len(), "run"));
+    let (file, n_runs) = (args.out.display(), counted(runs.len(), "run"));
     writeln!(out, "{n_runs} imported, {} in all: see {file}", rows.len())?;
     Ok(Ending::Done)
 }
@@ -181,95 +180,94 @@ fn first_id(path: &Path) -> Result<String> {
     id.with_context(|| format!("{}: it holds no scenarios", path.display()))
 }
 
-/// A run as a row, with where it comes from.
-fn record(args: &ImportArgs, place: &Place, imported: &Imported, seed: u64) -> Result<Record> {
-    let mut record = Record::default();
-    let row = &mut record.row;
+/// A run with its origin.
+fn run_of(args: &ImportArgs, place: &Place, imported: &Imported, seed: u64) -> Result<Run> {
     let planner = args.planner.as_ref().or(imported.planner.as_ref());
     let planner =
         planner.ok_or_else(|| anyhow!("the file names no planner; hint: --planner NAME"))?;
-    let is_trusted = args.trust && imported.samples.is_none() && imported.is_found;
-    let named = if args.trust && imported.samples.is_none() {
-        format!("{planner} (own word)")
-    } else {
-        planner.clone()
-    };
-    row.set("scenario", &json!(place.scenario));
-    row.set("planner", &json!(named));
-    row.set("seed", &json!(seed + imported.run));
-    row.set("source", &json!(place.source));
-    row.set(
-        "status",
-        &json!(if imported.is_found {
-            "found"
+    let is_trusted = args.trust && imported.samples.is_none();
+    let mut record = RunRecord {
+        scenario: place.scenario.clone(),
+        planner: if is_trusted {
+            format!("{planner} (own word)")
         } else {
-            "not_found"
-        }),
-    );
-    row.set("query_s", &json!(args.query));
-    row.set("first_feasible_s", &json!(args.first));
-    let on = (&place.obstacles, &place.vehicle);
-    measure::ground(row, on, [place.request.start, place.request.goal]);
-    for (column, value) in &imported.measured {
-        row.set(column, &json!(value));
-    }
+            planner.clone()
+        },
+        seed: seed + imported.run,
+        source: place.source.clone(),
+        status: if imported.is_found {
+            RunStatus::Found
+        } else {
+            RunStatus::NotFound
+        },
+        query_s: imported.query_s.or(args.query),
+        first_feasible_s: args.first,
+        length_m: imported.length_m,
+        ..RunRecord::default()
+    };
+    let evaluation = Evaluation {
+        obstacles: &place.obstacles,
+        vehicle: &place.vehicle,
+    };
+    evaluation.ends(&mut record, [place.request.start, place.request.goal]);
     match &imported.samples {
-        Some(samples) => drop(measure::verdict(row, on, &place.request, samples)),
+        Some(samples) => drop(evaluation.foreign_path(&mut record, &place.request, samples)),
         None if imported.is_found => {
-            row.set("valid", &json!(is_trusted.then_some(true)));
-            row.set("reason", &json!("its log holds no path: not judged"));
+            record.valid = is_trusted.then_some(true);
+            "its log holds no path: not judged".clone_into(&mut record.reason);
         }
         None => {}
     }
+    Ok(Run {
+        record,
+        origin: origin(args, place),
+        ..Run::default()
+    })
+}
+
+fn origin(args: &ImportArgs, place: &Place) -> Origin {
     let motion = match args.motion {
         MotionMode::Forward => "forward",
         MotionMode::Reverse => "reverse",
     };
-    let origin = &mut record.origin;
-    origin.set(
-        "vehicle",
-        args.ground.vehicle.as_deref().unwrap_or(OWN_VEHICLE),
-    );
-    origin.set("motion", motion);
-    origin.set("version", env!("CARGO_PKG_VERSION"));
-    origin.set("map_hash", &format!("{:032x}", place.obstacles.hash()));
-    origin.set("vehicle_hash", &format!("{:032x}", place.vehicle.hash()));
-    Ok(record)
+    let vehicle = args.ground.vehicle.as_deref().unwrap_or(OWN_VEHICLE);
+    Origin {
+        vehicle: vehicle.to_owned(),
+        motion: motion.to_owned(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        map_hash: format!("{:032x}", place.obstacles.hash()),
+        vehicle_hash: format!("{:032x}", place.vehicle.hash()),
+        ..Origin::default()
+    }
 }
 
 /// The rows of a table with new ones in the place of those that they replace, or behind all.
-fn merged(path: &Path, new: &[Record]) -> Result<Vec<Record>> {
+fn merged(path: &Path, new: &[Run]) -> Result<Vec<Run>> {
     let mut rows = if path.exists() {
         read_csv(&files::read_text(path)?).with_context(|| path.display().to_string())?
     } else {
         Vec::new()
     };
-    for record in new {
-        match rows.iter_mut().find(|row| key(row) == key(record)) {
-            Some(row) => row.clone_from(record),
-            None => rows.push(record.clone()),
+    let key = |run: &Run| (run.record.key(), run.place().map(str::to_owned));
+    for run in new {
+        match rows.iter_mut().find(|row| key(row) == key(run)) {
+            Some(row) => row.clone_from(run),
+            None => rows.push(run.clone()),
         }
     }
     Ok(rows)
 }
 
-fn key(record: &Record) -> [&str; 5] {
-    ["scenario", "vehicle", "motion", "planner", "seed"].map(|column| record.get(column))
-}
-
-fn line(record: &Record) -> String {
-    let [scenario, planner, seed] = ["scenario", "planner", "seed"].map(|c| record.get(c));
-    let verdict = match (record.get("status"), record.get("valid")) {
-        ("found", "true") if record.get("reason").is_empty() => "valid",
-        ("found", "false") => "invalid",
-        ("found", _) => "found",
-        (status, _) => status,
+fn line(record: &RunRecord) -> String {
+    let verdict = match (record.status, record.valid) {
+        (RunStatus::Found, Some(true)) if record.reason.is_empty() => "valid",
+        (RunStatus::Found, Some(false)) => "invalid",
+        (status, _) => status.name(),
     };
-    let reason = record.get("reason");
-    let reason = if reason.is_empty() {
-        String::new()
-    } else {
-        format!(": {reason}")
+    let reason = match record.reason.as_str() {
+        "" => String::new(),
+        reason => format!(": {reason}"),
     };
+    let (scenario, planner, seed) = (&record.scenario, &record.planner, record.seed);
     format!("{scenario}  {planner}  seed {seed}  {verdict}{reason}")
 }

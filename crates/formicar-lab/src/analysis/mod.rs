@@ -5,4 +5,4 @@ pub mod standing;
 pub mod statistics;
 mod summary;
 
-pub use summary::{ompl_logs, parameter_section, report};
+pub use summary::{Summary, ompl_logs, parameter_section, report};

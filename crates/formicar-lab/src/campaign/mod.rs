@@ -1,32 +1,32 @@
-//! Campaigns: scenarios x vehicles x planners x seeds, every run once, in one file.
+//! Campaigns: scenarios x vehicles x planners x seeds, every run once, in one store.
 //!
-//! A [`Document`] is what a user writes. A [`Campaign`] is the list of [`Job`]s that it comes to,
-//! in a fixed order, each with a stable key. A [`Store`] is the file that takes a [`Record`] for
-//! each, one transaction a run, so that a kill loses nothing but the runs under way and a restart
-//! repeats none that are over.
+//! A [`Document`] is what a user writes, a [`CampaignSpec`] what it names. A [`Campaign`] is the
+//! list of runs that it comes to, in a fixed order, each with a stable key. [`run_into`] carries
+//! out those that are missing in a [`Store`], one transaction a run: a kill loses the runs under
+//! way, and a restart repeats no others. A [`Folder`] is a store with its rows as a table.
 
 mod document;
-mod job;
+mod execute;
+mod folder;
 mod lock;
 mod mistake;
 mod plan;
-mod record;
-mod row;
+mod results;
 mod scenarios;
 mod seeds;
+mod spec;
 mod store;
 mod stored;
-mod table;
+mod tasks;
 
 pub use document::{Document, PlannerEntry};
-pub use job::{
-    Contender, Job, Limits, OWN_VEHICLE, Place, RivalCommand, RowKey, Task, VehicleChoice,
-};
+pub use execute::{Execution, MeasuredBy, Sink, run, run_in_turns, run_into};
+pub use folder::Folder;
 pub use mistake::Text;
-pub use plan::{Campaign, ConfigRecord, Ground, PlannedRun};
-pub use record::{History, Improvement, ORIGIN_COLUMNS, Origin, Record, Told};
-pub use row::{COLUMNS, KNOWN_BY, Row};
+pub use plan::{Campaign, ConfigRecord, Fingerprint, PlannedRun};
+pub use results::{check_once, name_of_file, read_results};
 pub use scenarios::ScenariosEntry;
+pub use spec::CampaignSpec;
 pub use store::{Store, csv_beside};
 pub use stored::Stored;
-pub use table::{read_csv, to_csv};
+pub use tasks::{TaskSource, check_names, spread, tasks_of};

@@ -1,6 +1,6 @@
 //! The runs of a campaign, in their order, each with a key that tells it from all others.
 
-use super::job::Job;
+use crate::run::Job;
 use anyhow::{Result, bail};
 use formicar::geometry::Pose2;
 use formicar::planner::PlannerConfig;
@@ -41,17 +41,17 @@ pub struct PlannedRun {
     pub job: Job,
     /// A hash of all that decides its result.
     pub key: String,
-    /// Of the planner's parameters.
+    /// Hash of the planner's parameters.
     pub config_hash: String,
-    /// Of what the judge sees of the map.
+    /// Hash of the map as the judge sees it.
     pub map_hash: String,
-    /// Of what the judge uses of the vehicle.
+    /// Hash of the vehicle as the judge sees it.
     pub vehicle_hash: String,
 }
 
-/// What a run stands on.
+/// The scenario of a run, as far as it decides the result.
 #[derive(Clone, Copy, Debug)]
-pub struct Ground {
+pub struct Fingerprint {
     /// The hash of the map.
     pub map_hash: u128,
     /// The hash of the vehicle.
@@ -61,7 +61,7 @@ pub struct Ground {
 }
 
 impl ConfigRecord {
-    /// Of a planner's parameters under a name.
+    /// The record of a planner's parameters under a name.
     ///
     /// # Errors
     /// Parameters that cannot be written as JSON.
@@ -69,7 +69,7 @@ impl ConfigRecord {
         Ok(Self::of_json(name, serde_json::to_string(config)?))
     }
 
-    /// Of what else decides on a planner's answers.
+    /// The record of anything else that decides on a planner's answers.
     pub fn of_json(name: &str, json: String) -> Self {
         Self {
             name: name.to_owned(),
@@ -82,10 +82,10 @@ impl ConfigRecord {
 
 impl PlannedRun {
     /// A run under a key of scenario, map, ends, vehicle, planner, seed and limits.
-    pub fn new(job: Job, ground: &Ground, config: &ConfigRecord) -> Self {
+    pub fn new(job: Job, scenario: &Fingerprint, config: &ConfigRecord) -> Self {
         let [map_hash, vehicle_hash] =
-            [ground.map_hash, ground.vehicle_hash].map(|hash| format!("{hash:032x}"));
-        let ends = ground.ends.map(|pose| [pose.x, pose.y, pose.heading]);
+            [scenario.map_hash, scenario.vehicle_hash].map(|hash| format!("{hash:032x}"));
+        let ends = scenario.ends.map(|pose| [pose.x, pose.y, pose.heading]);
         let whole = json!([
             job.task.scenario,
             map_hash,
@@ -117,7 +117,7 @@ impl Campaign {
     /// Refuses a campaign with a run that stands there twice, or with none.
     ///
     /// # Errors
-    /// Which run that is.
+    /// The run that stands there twice.
     pub fn check(&self) -> Result<()> {
         if self.runs.is_empty() {
             bail!("the campaign has no runs");
@@ -125,7 +125,7 @@ impl Campaign {
         let mut seen = BTreeMap::new();
         for (place, run) in self.runs.iter().enumerate() {
             if seen.insert(&run.key, place).is_some() {
-                let (scenario, planner, seed) = run.job.row_key();
+                let (scenario, planner, seed) = run.job.key();
                 bail!(
                     "the run of {planner} on {scenario} with seed {seed} and vehicle {} stands in \
                      the campaign twice",
@@ -144,7 +144,7 @@ fn hash(text: &str) -> String {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::campaign::{Contender, Limits, Place, Task};
+    use crate::run::{Contender, Limits, Place, Task};
     use formicar::planner::PlannerName;
 
     /// A job on a scenario with a seed.
@@ -175,7 +175,7 @@ pub(super) mod tests {
     /// A campaign of one planner over seeds.
     pub(in super::super) fn campaign(n_seeds: u64) -> Campaign {
         let config = ConfigRecord::new("astar", &PlannerConfig::of(PlannerName::Astar)).unwrap();
-        let ground = Ground {
+        let ground = Fingerprint {
             map_hash: 1,
             vehicle_hash: 2,
             ends: [Pose2::default(); 2],
@@ -193,12 +193,12 @@ pub(super) mod tests {
     fn keys_depend_on_all_that_decides_a_result() {
         let config = ConfigRecord::new("astar", &PlannerConfig::of(PlannerName::Astar)).unwrap();
         let other = ConfigRecord::new("astar", &PlannerConfig::of(PlannerName::Dijkstra)).unwrap();
-        let ground = Ground {
+        let ground = Fingerprint {
             map_hash: 1,
             vehicle_hash: 2,
             ends: [Pose2::default(); 2],
         };
-        let key = |job: Job, ground: Ground, config| PlannedRun::new(job, &ground, config).key;
+        let key = |job: Job, ground: Fingerprint, config| PlannedRun::new(job, &ground, config).key;
         let mut keys = vec![
             key(job("a", 0), ground, &config),
             key(job("b", 0), ground, &config),
@@ -206,7 +206,7 @@ pub(super) mod tests {
             key(job("a", 0), ground, &other),
             key(
                 job("a", 0),
-                Ground {
+                Fingerprint {
                     map_hash: 3,
                     ..ground
                 },
@@ -214,7 +214,7 @@ pub(super) mod tests {
             ),
             key(
                 job("a", 0),
-                Ground {
+                Fingerprint {
                     vehicle_hash: 3,
                     ..ground
                 },

@@ -5,13 +5,13 @@
 //! a kill the next opening rolls back the run that was being written and nothing else.
 
 use super::lock::Lock;
-use super::plan::Campaign;
-use super::record::Record;
+use super::plan::{Campaign, PlannedRun};
 use super::stored::{AT_ONCE, SCHEMA, Stored, check_schema, columns, fact, no_store, numbers};
+use crate::run::{Job, Run, RunKey, RunRecord};
 use anyhow::{Context, Result, bail};
 use rusqlite::types::Value;
 use rusqlite::{Connection, params_from_iter};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// The store of a campaign under way, of which this process is the only writer.
@@ -19,75 +19,116 @@ use std::path::{Path, PathBuf};
 pub struct Store {
     connection: Connection,
     path: PathBuf,
+    /// The place in the store of each run of the campaign.
+    places: Vec<i64>,
     _lock: Lock,
 }
 
 impl Store {
-    /// The store at a path for a campaign: a new one, or that of before, which must be of the same
-    /// runs and the same version.
+    /// Opens the store of a campaign: a new one, or one from before, which must be of the same runs
+    /// and the same version.
     ///
     /// # Errors
-    /// A store of another campaign, one that another process writes to, and a file that is none.
+    /// A store of another campaign, one that another process writes to, and other files.
     pub fn open(path: &Path, campaign: &Campaign, version: &str) -> Result<Self> {
+        let mut store = Self::connect(path)?;
         let name = || path.display().to_string();
-        check_place(path)?;
-        let lock = Lock::of(path)?;
-        let is_new = !path.exists();
-        let connection = Connection::open(path).with_context(name)?;
-        let mut store = Self {
-            connection,
-            path: path.to_owned(),
-            _lock: lock,
-        };
-        // A kill between the making of the file and its first commit leaves it empty.
-        if is_new || store.is_empty().map_err(no_store).with_context(name)? {
+        if store.is_empty().map_err(no_store).with_context(name)? {
             store.create(campaign, version).with_context(name)?;
         } else {
             check_schema(&store.connection).with_context(name)?;
             store.check(campaign, version).with_context(name)?;
         }
+        store.places = (0..campaign.runs.len() as i64).collect();
         Ok(store)
     }
 
-    /// Places in the campaign of the runs that are not over, in order.
+    /// Opens a store that takes any runs under the same settings: one from before, or a new one
+    /// that begins with records of which no more is known. Runs are told apart by scenario, planner
+    /// and seed.
+    pub(super) fn open_growing(
+        path: &Path,
+        campaign: &Campaign,
+        settings: &serde_json::Value,
+        before: Vec<RunRecord>,
+    ) -> Result<Self> {
+        let mut store = Self::connect(path)?;
+        let name = || path.display().to_string();
+        if store.is_empty().map_err(no_store).with_context(name)? {
+            let blank = Campaign {
+                runs: Vec::new(),
+                ..campaign.clone()
+            };
+            store
+                .create(&blank, env!("CARGO_PKG_VERSION"))
+                .with_context(name)?;
+            store.set_fact("settings", &settings.to_string())?;
+            store.import(before).with_context(name)?;
+        } else {
+            check_schema(&store.connection).with_context(name)?;
+            check_settings(&store.settings()?, settings, path)?;
+        }
+        store.grow(campaign).with_context(name)?;
+        Ok(store)
+    }
+
+    fn connect(path: &Path) -> Result<Self> {
+        check_place(path)?;
+        let lock = Lock::of(path)?;
+        let connection = Connection::open(path).with_context(|| path.display().to_string())?;
+        Ok(Self {
+            connection,
+            path: path.to_owned(),
+            places: Vec::new(),
+            _lock: lock,
+        })
+    }
+
+    /// The runs of the campaign that are not over, as indices in order.
     ///
     /// # Errors
     /// A store that cannot be read.
     pub fn missing(&self) -> Result<Vec<usize>> {
-        let sql =
-            "SELECT place FROM planned WHERE place NOT IN (SELECT place FROM run) ORDER BY place";
-        let mut statement = self.connection.prepare(sql)?;
+        let mut statement = self.connection.prepare("SELECT place FROM run")?;
         let places = statement.query_map([], |row| row.get::<_, i64>(0))?;
-        let places: rusqlite::Result<Vec<i64>> = places.collect();
-        Ok(places?.into_iter().map(|place| place as usize).collect())
+        let done: BTreeSet<i64> = places.collect::<rusqlite::Result<_>>()?;
+        let is_missing = |i: &usize| !done.contains(&self.places[*i]);
+        Ok((0..self.places.len()).filter(is_missing).collect())
     }
 
-    /// Adds the record of the run at a place; it is on disk when this returns.
+    /// Adds a run of the campaign by its index; it is on disk when this returns.
     ///
     /// # Errors
     /// A store that cannot be written, and a run that it holds already.
-    pub fn add(&mut self, place: usize, record: &Record) -> Result<()> {
-        let fields = record.row.fields().iter().chain(record.origin.fields());
-        let mut values = vec![Value::Integer(place as i64)];
-        values.extend(
-            columns()
-                .zip(fields)
-                .map(|(column, text)| value(column, text)),
-        );
-        values.push(Value::Text(serde_json::to_string(&record.history)?));
-        values.push(match &record.path {
-            Some(path) => Value::Text(serde_json::to_string(path)?),
-            None => Value::Null,
-        });
-        let marks = vec!["?"; values.len()].join(", ");
-        let sql = format!("INSERT INTO run VALUES ({marks})");
-        let inserted = self.connection.execute(&sql, params_from_iter(values));
-        inserted.with_context(|| self.path.display().to_string())?;
+    pub fn add(&mut self, index: usize, run: &Run) -> Result<()> {
+        insert(&self.connection, self.places[index], run)
+            .with_context(|| self.path.display().to_string())
+    }
+
+    /// Removes a run of the campaign, which is missing then.
+    pub(super) fn remove(&mut self, index: usize) -> Result<()> {
+        let sql = "DELETE FROM run WHERE place = ?";
+        self.connection.execute(sql, [self.places[index]])?;
         Ok(())
     }
 
-    /// Notes that runs which are still missing are done so many at once: it tells on their times.
-    /// It is no part of the campaign; a store that was filled in several ways knows them all.
+    /// Takes over records without a job.
+    fn import(&mut self, records: Vec<RunRecord>) -> Result<()> {
+        let transaction = self.connection.transaction()?;
+        for record in records {
+            let sql = "INSERT INTO planned (run, job) VALUES (NULL, NULL)";
+            transaction.execute(sql, [])?;
+            let run = Run {
+                record,
+                ..Run::default()
+            };
+            insert(&transaction, transaction.last_insert_rowid(), &run)?;
+        }
+        Ok(transaction.commit()?)
+    }
+
+    /// Notes how many runs are done at once where some are missing, since that influences their
+    /// times. It is no part of the campaign; a store keeps all such numbers.
     ///
     /// # Errors
     /// A store that cannot be read or written.
@@ -98,13 +139,10 @@ impl Store {
         let mut known = numbers(&self.connection, AT_ONCE)?;
         known.insert(n_at_once);
         let known: Vec<String> = known.iter().map(u32::to_string).collect();
-        let sql = "INSERT OR REPLACE INTO fact VALUES (?, ?)";
-        let noted = self.connection.execute(sql, (AT_ONCE, known.join(" ")));
-        noted.with_context(|| self.path.display().to_string())?;
-        Ok(())
+        self.set_fact(AT_ONCE, &known.join(" "))
     }
 
-    /// Everything in it.
+    /// Everything in the store.
     ///
     /// # Errors
     /// A store that cannot be read.
@@ -112,7 +150,7 @@ impl Store {
         Stored::of(&self.connection).with_context(|| self.path.display().to_string())
     }
 
-    /// Closes the store of a campaign that is done.
+    /// Closes the store.
     ///
     /// # Errors
     /// A store that cannot be closed.
@@ -120,10 +158,22 @@ impl Store {
         Ok(self.connection.close().map_err(|(_, error)| error)?)
     }
 
+    /// True before the first commit: a kill may leave an empty file.
     fn is_empty(&self) -> rusqlite::Result<bool> {
         let sql = "SELECT count(*) FROM sqlite_master";
         let n: i64 = self.connection.query_row(sql, [], |row| row.get(0))?;
         Ok(n == 0)
+    }
+
+    fn set_fact(&self, name: &str, value: &str) -> Result<()> {
+        let sql = "INSERT OR REPLACE INTO fact VALUES (?, ?)";
+        let noted = self.connection.execute(sql, (name, value));
+        noted.with_context(|| self.path.display().to_string())?;
+        Ok(())
+    }
+
+    fn settings(&self) -> Result<serde_json::Value> {
+        Ok(serde_json::from_str(&fact(&self.connection, "settings")?)?)
     }
 
     fn create(&mut self, campaign: &Campaign, version: &str) -> Result<()> {
@@ -144,10 +194,56 @@ impl Store {
             transaction.execute("INSERT INTO config VALUES (?, ?, ?)", values)?;
         }
         for (place, run) in campaign.runs.iter().enumerate() {
-            let values = (place as i64, &run.key, serde_json::to_string(&run.job)?);
-            transaction.execute("INSERT INTO planned VALUES (?, ?, ?)", values)?;
+            plan(&transaction, place as i64, run)?;
         }
         Ok(transaction.commit()?)
+    }
+
+    /// Plans the runs that the store does not know yet, behind those that it knows.
+    fn grow(&mut self, campaign: &Campaign) -> Result<()> {
+        let mut known = self.known()?;
+        let sql = "SELECT max(place) + 1 FROM planned";
+        let next = self
+            .connection
+            .query_row(sql, [], |row| row.get::<_, Option<i64>>(0))?;
+        let mut next = next.unwrap_or_default();
+        let transaction = self.connection.transaction()?;
+        for config in &campaign.configs {
+            let values = (&config.name, &config.hash, &config.json);
+            transaction.execute("INSERT OR REPLACE INTO config VALUES (?, ?, ?)", values)?;
+        }
+        for run in &campaign.runs {
+            if !known.contains_key(&run.job.key()) {
+                plan(&transaction, next, run)?;
+                known.insert(run.job.key(), next);
+                next += 1;
+            }
+        }
+        transaction.commit()?;
+        let places = campaign.runs.iter().map(|run| known[&run.job.key()]);
+        self.places = places.collect();
+        Ok(())
+    }
+
+    /// The places of all runs, planned or taken over.
+    fn known(&self) -> Result<BTreeMap<RunKey, i64>> {
+        let mut known = BTreeMap::new();
+        let sql = "SELECT place, job FROM planned WHERE job IS NOT NULL";
+        let mut statement = self.connection.prepare(sql)?;
+        let mut rows = statement.query([])?;
+        while let Some(row) = rows.next()? {
+            let job: Job = serde_json::from_str(&row.get::<_, String>(1)?)?;
+            known.insert(job.key(), row.get(0)?);
+        }
+        let mut statement = self
+            .connection
+            .prepare("SELECT place, scenario, planner, seed FROM run")?;
+        let mut rows = statement.query([])?;
+        while let Some(row) = rows.next()? {
+            let seed: i64 = row.get(3)?;
+            known.insert((row.get(1)?, row.get(2)?, seed as u64), row.get(0)?);
+        }
+        Ok(known)
     }
 
     /// Refuses the store of another campaign or version.
@@ -160,7 +256,9 @@ impl Store {
         if fact(&self.connection, "campaign_hash")? == campaign.hash() {
             return Ok(());
         }
-        let mut statement = self.connection.prepare("SELECT run FROM planned")?;
+        let mut statement = self
+            .connection
+            .prepare("SELECT run FROM planned WHERE run IS NOT NULL")?;
         let keys = statement.query_map([], |row| row.get::<_, String>(0))?;
         let keys: rusqlite::Result<BTreeSet<String>> = keys.collect();
         let keys = keys?;
@@ -177,10 +275,47 @@ impl Store {
     }
 }
 
+/// Refuses runs under other settings than those of a folder.
+pub(super) fn check_settings(
+    before: &serde_json::Value,
+    settings: &serde_json::Value,
+    path: &Path,
+) -> Result<()> {
+    if before == settings {
+        return Ok(());
+    }
+    bail!(
+        "{}: the rows there were made with {before}, now it is {settings}; hint: another --out, or \
+         the flags of before",
+        path.with_file_name("settings.json").display()
+    )
+}
+
+fn plan(connection: &Connection, place: i64, run: &PlannedRun) -> Result<()> {
+    let values = (place, &run.key, serde_json::to_string(&run.job)?);
+    connection.execute("INSERT INTO planned VALUES (?, ?, ?)", values)?;
+    Ok(())
+}
+
+fn insert(connection: &Connection, place: i64, run: &Run) -> Result<()> {
+    let mut values = vec![Value::Integer(place)];
+    values.extend(run.record.values().into_iter().map(value));
+    values.extend(run.origin.values().into_iter().map(value));
+    values.push(Value::Text(serde_json::to_string(&run.history)?));
+    values.push(match &run.path {
+        Some(path) => Value::Text(serde_json::to_string(path)?),
+        None => Value::Null,
+    });
+    let marks = vec!["?"; values.len()].join(", ");
+    let sql = format!("INSERT INTO run VALUES ({marks})");
+    connection.execute(&sql, params_from_iter(values))?;
+    Ok(())
+}
+
 /// The table that takes the rows of a store in the end.
 ///
 /// # Errors
-/// A store that the table would be written over.
+/// A table that would be written over the store.
 pub fn csv_beside(store: &Path) -> Result<PathBuf> {
     let csv = store.with_extension("csv");
     let is_named_so = store
@@ -226,35 +361,18 @@ fn tables() -> String {
     )
 }
 
-/// Columns that hold words, even where these look like numbers.
-const WORDS: [&str; 16] = [
-    "scenario",
-    "planner",
-    "status",
-    "valid",
-    "source",
-    "reason",
-    "vehicle",
-    "motion",
-    "version",
-    "build",
-    "machine",
-    "config_hash",
-    "map_hash",
-    "vehicle_hash",
-    "cold",
-    "run",
-];
-
-fn value(column: &str, text: &str) -> Value {
-    let number = || {
-        let whole = text.parse::<i64>().ok().map(Value::Integer);
-        whole.or_else(|| text.parse::<f64>().ok().map(Value::Real))
-    };
-    match text {
-        "" => Value::Null,
-        _ if WORDS.contains(&column) => Value::Text(text.to_owned()),
-        _ => number().unwrap_or_else(|| Value::Text(text.to_owned())),
+/// A value of a record as SQLite keeps it; an empty text is none.
+fn value(value: serde_json::Value) -> Value {
+    match value {
+        serde_json::Value::Null => Value::Null,
+        serde_json::Value::String(text) if text.is_empty() => Value::Null,
+        serde_json::Value::Number(number) => match (number.as_i64(), number.as_f64()) {
+            (Some(whole), _) => Value::Integer(whole),
+            (None, Some(real)) => Value::Real(real),
+            (None, None) => Value::Null,
+        },
+        serde_json::Value::String(text) => Value::Text(text),
+        other => Value::Text(other.to_string()),
     }
 }
 
@@ -262,21 +380,28 @@ fn value(column: &str, text: &str) -> Value {
 mod tests {
     use super::*;
     use crate::campaign::plan::tests::campaign;
-    use crate::campaign::record::{History, Improvement, Origin};
-    use crate::campaign::row::Row;
-    use serde_json::json;
+    use crate::run::{History, Improvement, Origin, RunStatus};
 
-    fn done(campaign: &Campaign, place: usize) -> Record {
+    fn done(campaign: &Campaign, place: usize) -> Run {
         let run = &campaign.runs[place];
-        let mut row = Row::begin(&run.job);
-        let values = json!({
-            "status": "found", "valid": true, "length_m": 2.0, "query_s": 0.1, "steps": 17,
-            "reason": "\"1e5\"", "total_s": 1e-7,
-        });
-        row.fill(&values);
-        Record {
-            row,
-            origin: Origin::new(run, ["0.1.0", "release", "a machine"]),
+        Run {
+            record: RunRecord {
+                status: RunStatus::Found,
+                valid: Some(true),
+                length_m: Some(2.0),
+                query_s: Some(0.1),
+                steps: Some(17),
+                reason: "\"1e5\"".to_owned(),
+                total_s: Some(1e-7),
+                ..RunRecord::of_job(&run.job)
+            },
+            origin: Origin {
+                cold: Some(false),
+                machine: "a machine".to_owned(),
+                budget_steps: Some(9),
+                run: run.key.clone(),
+                ..Origin::default()
+            },
             history: History {
                 improvements: vec![Improvement {
                     at_s: 0.1,
@@ -305,7 +430,7 @@ mod tests {
         assert_eq!(store.missing().unwrap(), [1]);
         store.finish().unwrap();
         let stored = Stored::read(&path).unwrap();
-        assert_eq!(stored.records, [done(&campaign, 0), done(&campaign, 2)]);
+        assert_eq!(stored.runs, [done(&campaign, 0), done(&campaign, 2)]);
         assert_eq!((stored.n_planned, stored.configs), (3, campaign.configs));
         assert!(stored.n_at_once.is_empty(), "nobody has noted it");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);

@@ -1,13 +1,11 @@
-//! What stands in the file of a campaign, read.
+//! The contents of a store.
 
-use super::job::Job;
 use super::plan::ConfigRecord;
-use super::record::{ORIGIN_COLUMNS, Origin, Record};
-use super::row::{COLUMNS, Row};
-use super::table::to_csv;
+use crate::run::{COLUMNS, Job, ORIGIN_COLUMNS, Run, to_csv};
 use anyhow::{Context, Result, anyhow, bail};
 use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OpenFlags, OptionalExtension};
+use serde_json::json;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
 use std::path::Path;
@@ -15,7 +13,7 @@ use std::path::Path;
 /// Name and version of the tables.
 pub(super) const SCHEMA: &str = "formicar/store/1";
 
-/// The fact of how many runs were done at once.
+/// The fact that holds the numbers of runs done at once.
 pub(super) const AT_ONCE: &str = "runs_at_once";
 
 /// A store as it stands.
@@ -25,24 +23,23 @@ pub struct Stored {
     pub name: String,
     /// The campaign file.
     pub text: String,
-    /// How many runs the campaign has.
+    /// Number of runs of the campaign.
     pub n_planned: usize,
     /// The runs that are over, in the order of the campaign.
-    pub records: Vec<Record>,
-    /// How many runs were done at once; several numbers where it was filled in several ways, none
-    /// where that is not known.
+    pub runs: Vec<Run>,
+    /// Numbers of runs that were done at once; none where that is not known.
     pub n_at_once: BTreeSet<u32>,
     /// The configurations of its planners.
     pub configs: Vec<ConfigRecord>,
-    /// What the processes of its runs are told, by key; none of a table.
+    /// The jobs of its runs, by key; none of a table.
     pub jobs: BTreeMap<String, Job>,
 }
 
 impl Stored {
-    /// What stands in the store at a path.
+    /// Reads the store at a path.
     ///
     /// # Errors
-    /// A file that is no store.
+    /// A file that is not a store.
     pub fn read(path: &Path) -> Result<Self> {
         let read = || -> Result<Self> {
             // A journal left by a kill is rolled back, which is writing.
@@ -56,7 +53,7 @@ impl Stored {
         read().with_context(|| path.display().to_string())
     }
 
-    /// What stands in a store that is open.
+    /// Reads a store that is open.
     pub(super) fn of(connection: &Connection) -> Result<Self> {
         let jobs = jobs(connection)?;
         let n_planned: i64 =
@@ -65,7 +62,7 @@ impl Stored {
             name: fact(connection, "campaign")?,
             text: fact(connection, "text")?,
             n_planned: n_planned as usize,
-            records: records(connection)?,
+            runs: runs(connection)?,
             n_at_once: numbers(connection, AT_ONCE)?,
             configs: configs(connection, &jobs)?,
             jobs,
@@ -77,30 +74,30 @@ impl Stored {
     /// # Errors
     /// None in practice: the table is written to memory.
     pub fn csv(&self) -> Result<String> {
-        to_csv(&self.records)
+        to_csv(&self.runs)
     }
 }
 
 /// The columns of a run, but for its history and its path.
 pub(super) fn columns() -> impl Iterator<Item = &'static str> {
-    COLUMNS.into_iter().chain(ORIGIN_COLUMNS)
+    COLUMNS.iter().chain(ORIGIN_COLUMNS).copied()
 }
 
-/// A value as it stood in the row.
-fn text_of(value: ValueRef) -> Result<serde_json::Value> {
+/// A value as text; empty where there is none.
+fn text_of(value: ValueRef) -> Result<String> {
     Ok(match value {
-        ValueRef::Null => serde_json::Value::Null,
-        ValueRef::Integer(n) => n.into(),
-        ValueRef::Real(x) => x.into(),
-        ValueRef::Text(text) => std::str::from_utf8(text)?.into(),
-        ValueRef::Blob(_) => bail!("a value that is none of ours"),
+        ValueRef::Null => String::new(),
+        ValueRef::Integer(n) => n.to_string(),
+        ValueRef::Real(x) => json!(x).to_string(),
+        ValueRef::Text(text) => std::str::from_utf8(text)?.to_owned(),
+        ValueRef::Blob(_) => bail!("a value that is neither a number nor text"),
     })
 }
 
-/// What a store is, for those who name another file.
+/// The words for a store, for users who name another file.
 const EXPECTED: &str = "expected the SQLite file that `bench --store F.sqlite` fills";
 
-/// That a file is none of ours.
+/// The error for a file that is not a store.
 pub(super) fn no_store(error: impl Display) -> anyhow::Error {
     anyhow!("it is no store of campaigns ({error}); {EXPECTED}")
 }
@@ -131,7 +128,7 @@ pub(super) fn numbers(connection: &Connection, name: &str) -> Result<BTreeSet<u3
 }
 
 fn jobs(connection: &Connection) -> Result<BTreeMap<String, Job>> {
-    let mut statement = connection.prepare("SELECT run, job FROM planned")?;
+    let mut statement = connection.prepare("SELECT run, job FROM planned WHERE job IS NOT NULL")?;
     let mut rows = statement.query([])?;
     let mut jobs = BTreeMap::new();
     while let Some(row) = rows.next()? {
@@ -162,7 +159,7 @@ fn configs(connection: &Connection, jobs: &BTreeMap<String, Job>) -> Result<Vec<
     Ok(configs.collect::<rusqlite::Result<_>>()?)
 }
 
-fn records(connection: &Connection) -> Result<Vec<Record>> {
+fn runs(connection: &Connection) -> Result<Vec<Run>> {
     let names: Vec<String> = columns().map(|c| format!("\"{c}\"")).collect();
     let sql = format!(
         "SELECT {}, history, path FROM run ORDER BY place",
@@ -170,32 +167,53 @@ fn records(connection: &Connection) -> Result<Vec<Record>> {
     );
     let mut statement = connection.prepare(&sql)?;
     let mut rows = statement.query([])?;
-    let mut records = Vec::new();
+    let mut runs = Vec::new();
     while let Some(row) = rows.next()? {
-        records.push(record(row)?);
+        runs.push(run(row)?);
     }
-    Ok(records)
+    Ok(runs)
 }
 
-fn record(stored: &rusqlite::Row) -> Result<Record> {
-    let (mut row, mut origin) = (Row::default(), Origin::default());
-    for (i, column) in COLUMNS.into_iter().enumerate() {
-        row.set(column, &text_of(stored.get_ref(i)?)?);
-    }
-    for (i, column) in ORIGIN_COLUMNS.into_iter().enumerate() {
-        let text = match text_of(stored.get_ref(COLUMNS.len() + i)?)? {
-            serde_json::Value::Null => String::new(),
-            serde_json::Value::String(text) => text,
-            number => number.to_string(),
-        };
-        origin.set(column, &text);
+fn run(row: &rusqlite::Row) -> Result<Run> {
+    let mut run = Run::default();
+    for (i, column) in columns().enumerate() {
+        let text = text_of(row.get_ref(i)?)?;
+        run.record.set(column, &text)?;
+        run.origin.set(column, &text)?;
     }
     let n = COLUMNS.len() + ORIGIN_COLUMNS.len();
-    let path: Option<String> = stored.get(n + 1)?;
-    Ok(Record {
-        row,
-        origin,
-        history: serde_json::from_str(&stored.get::<_, String>(n)?)?,
-        path: path.map(|json| serde_json::from_str(&json)).transpose()?,
-    })
+    let path: Option<String> = row.get(n + 1)?;
+    run.history = serde_json::from_str(&row.get::<_, String>(n)?)?;
+    run.path = path.map(|json| serde_json::from_str(&json)).transpose()?;
+    Ok(run)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::RunStatus;
+
+    #[test]
+    fn a_store_of_the_build_before_is_read_and_exported_as_it_was() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("before.sqlite");
+        let connection = Connection::open(&path).unwrap();
+        let dump = include_str!("../../tests/data/store_before.sql");
+        connection.execute_batch(dump).unwrap();
+        connection.close().unwrap();
+        let stored = Stored::read(&path).unwrap();
+        let [found, lost] = &stored.runs[..] else {
+            panic!("{stored:?}");
+        };
+        assert_eq!(found.record.status, RunStatus::Found);
+        assert_eq!(lost.record.status, RunStatus::BudgetExhausted);
+        assert_eq!(found.origin.budget_steps, Some(500));
+        let last = found.history.improvements.last().unwrap();
+        assert_eq!(found.record.length_m, Some(last.length_m));
+        assert!(!found.path.as_ref().unwrap().segments.is_empty());
+        assert_eq!(stored.jobs[&found.origin.run].key(), found.record.key());
+        assert_eq!(stored.n_at_once, BTreeSet::from([1]));
+        let table = include_str!("../../tests/data/store_before.csv");
+        assert_eq!(stored.csv().unwrap(), table);
+    }
 }

@@ -21,14 +21,14 @@ pub struct Improvement {
 pub struct TimedIteration {
     /// Time since the search began, seconds.
     pub at_s: f64,
-    /// What the iteration came to.
+    /// Its results.
     pub record: IterationRecord,
 }
 
 /// The answer to a query with everything that was measured of it.
 #[derive(Clone, Debug)]
 pub struct Measured<T> {
-    /// What the query returned.
+    /// The value that the query returned.
     pub answer: T,
     /// Wall time of the query, seconds.
     pub query_s: f64,

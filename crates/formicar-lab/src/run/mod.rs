@@ -1,7 +1,49 @@
-//! Runs of planners: how a query is measured, and how runs are spread over threads.
+//! Runs of planners: what a run is told, how it is carried out and measured, and what is kept of
+//! it.
+//!
+//! A [`Job`] says which planner is asked what. [`carry_out`] does it in this process, a
+//! [`Program`] in one of its own. What comes out is a [`Run`].
 
+mod columns;
+mod evaluate;
+mod job;
 mod measure;
+mod ours;
 pub mod pool;
+mod process;
+mod record;
+mod scenario;
+mod status;
+mod table;
+mod theirs;
 pub mod usage;
 
+pub use evaluate::Evaluation;
+pub use job::{
+    Contender, Job, Limits, OWN_VEHICLE, Place, RivalCommand, RunKey, Task, VehicleChoice,
+};
 pub use measure::{Improvement, Measured, TimedIteration, measure};
+pub use ours::Begun;
+pub use process::Program;
+pub use record::{COLUMNS, History, ORIGIN_COLUMNS, Origin, Run, RunRecord};
+pub use scenario::{BuiltinSources, LoadedScenario, Sources};
+pub use status::RunStatus;
+pub use table::{read_csv, to_csv};
+
+pub(crate) use record::number;
+pub(crate) use table::{read_torn_csv, record_line, records_csv};
+pub(crate) use theirs::ask;
+
+use anyhow::Result;
+
+/// Carries out a job in this process.
+///
+/// # Errors
+/// A scenario, a vehicle or parameters that cannot be read; a planner that cannot be asked is a
+/// result.
+pub fn carry_out(job: &Job, sources: &dyn Sources, begun: Begun) -> Result<Run> {
+    match &job.contender.rival {
+        Some(command) => theirs::run(job, command, sources),
+        None => ours::run(job, sources, begun),
+    }
+}

@@ -1,14 +1,11 @@
 //! Runs of a configuration on a scenario.
 
 use crate::papers::experiment::Ground;
-use crate::run::{Improvement, measure, pool};
-use formicar::collision::{Body, ObstacleMap};
-use formicar::geometry::Arc;
+use crate::run::{Evaluation, Improvement, measure, pool};
+use formicar::collision::ObstacleMap;
 use formicar::numeric::Seed;
-use formicar::objective::{DriveCost, DriveMeter};
 use formicar::planner::{Outcome, Plan, Planner, PlannerConfig};
 use formicar::scenario::Request;
-use formicar::vehicle::Motion;
 use serde::Serialize;
 use std::convert::Infallible;
 use std::ops::Range;
@@ -131,22 +128,15 @@ impl Asked {
         }
     }
 
+    /// The cost of driving a path by the usual weights; its length where a point moves along it.
     fn cost_m(&self, plan: &Plan) -> f64 {
-        let vehicle = &self.ground.vehicle;
-        if vehicle.motion() == Motion::Point {
-            return plan.metrics.length_m;
-        }
-        let (cost, body) = (DriveCost::default(), Body::new(vehicle));
-        let radius_m = vehicle.min_turning_radius_m();
-        let meter = DriveMeter::new(&self.obstacles, &body, &cost, radius_m);
-        let arcs: Vec<Arc> = plan
-            .path
-            .segments()
-            .iter()
-            .map(|s| Arc::new(s.curvature_per_m, s.direction.sign() * s.length_m))
-            .collect();
-        let start = self.obstacles.frame().to_grid(plan.path.start());
-        meter.path_m(start, &arcs)
+        let evaluation = Evaluation {
+            obstacles: &self.obstacles,
+            vehicle: &self.ground.vehicle,
+        };
+        evaluation
+            .cost_m(&plan.path)
+            .unwrap_or(plan.metrics.length_m)
     }
 }
 

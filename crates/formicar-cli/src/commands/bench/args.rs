@@ -7,15 +7,17 @@ use anyhow::{Result, bail};
 use clap::{Args, ValueHint};
 use formicar::planner::PlannerName;
 use formicar::scenario::MotionMode;
-use formicar_lab::campaign::Limits;
+use formicar_lab::run::Limits;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 /// Flags of `bench`.
 #[derive(Args, Debug)]
 #[command(after_help = "\
-The folder takes results.csv (one row per run), summary.md, standing.md and index.html (goals, \
-peers of a peers.csv beside the scenarios, every run), MACHINE.md and settings.json. After a kill the same command goes on where it stopped. `valid` is the word of the judge in the process of \
+The folder takes results.csv (one row per run), results.sqlite (the same with history and path of \
+every run), summary.md, standing.md and index.html (goals, peers of a peers.csv beside the \
+scenarios, every run), MACHINE.md and settings.json. After a kill the same command goes on where it \
+stopped. `valid` is the word of the judge in the process of \
 the run; `check` repeats it on the answers that --paths keeps. Length at 0.1 s and 1 s is that of \
 the best path found by then, counted from the beginning of the query; its clearance and cusps are \
 known where it is the last.")]

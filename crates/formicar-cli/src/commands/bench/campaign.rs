@@ -1,21 +1,21 @@
 //! From a campaign file to runs.
 
-use super::runs::{Runs, planners, vehicle};
-use super::suite::{self, Source};
-use crate::{files, settings};
+use super::Files;
+use crate::{files, scene, settings};
 use anyhow::{Result, anyhow};
 use formicar::planner::PlannerName;
 use formicar_lab::campaign::{
-    Contender, Document, Limits, Place, PlannerEntry, RivalCommand, ScenariosEntry, Task, Text,
-    VehicleChoice,
+    CampaignSpec, Document, PlannerEntry, ScenariosEntry, TaskSource, Text, check_names, spread,
+    tasks_of,
 };
+use formicar_lab::run::{Contender, Limits, OWN_VEHICLE, Place, RivalCommand, Task, VehicleChoice};
 use formicar_lab::tuning::is_as_tuned;
 use std::ops::Range;
 use std::path::Path;
 use toml::{Spanned, Table, Value};
 
 /// The runs of a campaign file; names of files in it are relative to its folder.
-pub(crate) fn read(path: &Path) -> Result<Runs> {
+pub(super) fn read(path: &Path) -> Result<CampaignSpec> {
     let document = Document::read(Text {
         name: path.display().to_string(),
         text: files::read_text(path)?,
@@ -29,7 +29,7 @@ pub(crate) fn read(path: &Path) -> Result<Runs> {
     for entry in &document.scenarios {
         tasks.extend(scenarios(entry, (&document.text, folder), &contenders)?);
     }
-    suite::check_names(&tasks).map_err(|error| document.text.mistake(None, error))?;
+    check_names(&tasks).map_err(|error| document.text.mistake(None, error))?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let limits = |&motion| Limits {
         motion: Some(motion),
@@ -37,7 +37,7 @@ pub(crate) fn read(path: &Path) -> Result<Runs> {
         deadline_ms: document.deadline_ms,
         is_cold: document.is_cold,
     };
-    Ok(Runs {
+    Ok(CampaignSpec {
         name: document.name.clone().unwrap_or_else(|| stem.into_owned()),
         text: document.text.text.clone(),
         tasks,
@@ -64,6 +64,30 @@ fn vehicles(document: &Document, folder: &Path) -> Result<Vec<Option<VehicleChoi
     vehicles.collect()
 }
 
+/// A vehicle by the word for it: `own`, a preset, or a file of a folder.
+fn vehicle(word: &str, folder: &Path) -> Result<Option<VehicleChoice>> {
+    if word == OWN_VEHICLE {
+        return Ok(None);
+    }
+    let is_file = [".toml", ".json"].iter().any(|end| word.ends_with(end));
+    let source = if is_file {
+        folder.join(word).display().to_string()
+    } else {
+        word.to_owned()
+    };
+    scene::vehicle(&source)?;
+    Ok(Some(VehicleChoice {
+        name: word.to_owned(),
+        source,
+    }))
+}
+
+/// The planners of ours.
+fn planners(contenders: &[Contender]) -> Vec<PlannerName> {
+    let ours = contenders.iter().filter(|c| c.rival.is_none());
+    ours.map(|c| c.planner).collect()
+}
+
 /// The scenarios of one source: those of some ids, and of these at most so many.
 fn scenarios(
     entry: &ScenariosEntry,
@@ -80,19 +104,19 @@ fn scenarios(
     }
     let mut tasks = Vec::new();
     for (word, span) in words {
-        let source = Source {
+        let source = TaskSource {
             word: &word,
             limit: None,
             resolution_m: entry.resolution_m.as_ref().map(|side| *side.get_ref()),
         };
-        let found = suite::tasks_of(&source, &planners(contenders));
+        let found = tasks_of(&source, &planners(contenders), &Files);
         tasks.extend(found.map_err(|e| text.mistake(Some(span), format!("{e:#}")))?);
     }
     if let Some(ids) = &entry.ids {
         tasks = only(&tasks, ids, text)?;
     }
     let limit = entry.limit.as_ref().map(|limit| *limit.get_ref());
-    let kept = suite::spread(tasks.len(), limit);
+    let kept = spread(tasks.len(), limit);
     Ok(kept.map(|i| tasks[i].clone()).collect())
 }
 

@@ -1,15 +1,15 @@
 //! Results beside goals and peers, as a page and as Markdown.
 
-use super::results::Results;
-use super::{BenchArgs, machine, runs, variant};
+use super::{BenchArgs, machine};
 use crate::commands::results::config_facts;
 use crate::files;
 use anyhow::{Context, Result};
 use formicar::scenario::MotionMode;
 use formicar_lab::analysis::parameter_section;
 use formicar_lab::analysis::standing::{Peer, Standing};
-use formicar_lab::campaign::{ConfigRecord, Job, Place};
+use formicar_lab::campaign::Campaign;
 use formicar_lab::report::{Fact, Page, markdown, page};
+use formicar_lab::run::{RunRecord, Task};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
@@ -19,22 +19,24 @@ const PEERS: &str = "peers.csv";
 /// Names and contents.
 pub(super) fn files(
     args: &BenchArgs,
+    campaign: &Campaign,
     peers: Vec<Peer>,
-    results: &Results,
-) -> Result<[(&'static str, String); 2]> {
-    let forward_only = args.motion == Some(MotionMode::Forward);
-    let mut standing = Standing::read(&results.text()?, peers, forward_only)?;
+    records: Vec<RunRecord>,
+) -> [(&'static str, String); 2] {
+    let mut standing = Standing {
+        runs: records,
+        peers,
+        forward_only: args.motion == Some(MotionMode::Forward),
+    };
     // Variants in the order of the flags, the plain planner first.
-    let names: Vec<String> = variant::all(args)?.into_iter().map(|v| v.name).collect();
-    let place = |planner: &str| names.iter().position(|name| name == planner);
+    let configs = &campaign.configs;
+    let place = |planner: &str| configs.iter().position(|config| config.name == planner);
     standing
         .runs
-        .sort_by_key(|run| place(&run.planner).unwrap_or(names.len()));
+        .sort_by_key(|run| place(&run.planner).unwrap_or(configs.len()));
     let mut report = standing.report();
     let text = markdown(&report);
-    let configs = variant::all(args)?;
-    let configs: Vec<ConfigRecord> = configs.iter().map(runs::config).collect::<Result<_>>()?;
-    report.sections.extend(parameter_section(&configs));
+    report.sections.extend(parameter_section(configs));
     let facts = machine::facts();
     let facts: Vec<_> = facts
         .iter()
@@ -43,19 +45,15 @@ pub(super) fn files(
     let whole = Page {
         report: &report,
         facts: &facts,
-        configs: &config_facts(&configs),
+        configs: &config_facts(configs),
     };
-    Ok([("standing.md", text), ("index.html", page(&whole))])
+    [("standing.md", text), ("index.html", page(&whole))]
 }
 
-/// The peers of all tables beside the scenarios; none without any.
-pub(super) fn peers(jobs: &[Job]) -> Result<Vec<Peer>> {
-    let mut paths: BTreeSet<PathBuf> = BTreeSet::new();
-    for job in jobs {
-        if let Place::File { path, .. } = &job.task.place {
-            paths.insert(path.with_file_name(PEERS));
-        }
-    }
+/// The peers of all tables beside the scenarios.
+pub(super) fn peers(tasks: &[Task]) -> Result<Vec<Peer>> {
+    let files = tasks.iter().filter_map(Task::file);
+    let paths: BTreeSet<PathBuf> = files.map(|path| path.with_file_name(PEERS)).collect();
     let mut peers = Vec::new();
     for path in paths.iter().filter(|path| path.exists()) {
         let text = files::read_text(path)?;

@@ -1,10 +1,11 @@
-//! What the flags compare: planners, or one planner with parts of it left out.
+//! From flags to a campaign: planners, or one planner with parts of it left out.
 
-use super::BenchArgs;
+use super::{BenchArgs, Files};
 use crate::settings;
 use anyhow::Result;
 use formicar::planner::PlannerName;
-use formicar_lab::campaign::Contender;
+use formicar_lab::campaign::{CampaignSpec, TaskSource, check_names, tasks_of};
+use formicar_lab::run::{Contender, Task};
 use toml::Table;
 
 /// Formicar with parts left out.
@@ -26,8 +27,38 @@ const ABLATIONS: [(&str, &[&str]); 9] = [
     ),
 ];
 
-/// All contenders that the flags name, each once; flags that set parameters hold for all of them.
-pub(super) fn all(args: &BenchArgs) -> Result<Vec<Contender>> {
+/// The campaign that the flags name.
+pub(super) fn spec(args: &BenchArgs) -> Result<CampaignSpec> {
+    let contenders = contenders(args)?;
+    Ok(CampaignSpec {
+        name: "bench".to_owned(),
+        text: format!("{} {}\n", args.scenarios.join(" "), args.conditions()),
+        tasks: tasks(args, &contenders)?,
+        vehicles: vec![None],
+        limits: vec![args.limits()],
+        contenders,
+        seeds: (0..args.n_seeds()).collect(),
+    })
+}
+
+/// All scenarios that the words name.
+fn tasks(args: &BenchArgs, contenders: &[Contender]) -> Result<Vec<Task>> {
+    let planners: Vec<PlannerName> = contenders.iter().map(|c| c.planner).collect();
+    let mut tasks = Vec::new();
+    for word in &args.scenarios {
+        let source = TaskSource {
+            word,
+            limit: args.limit,
+            resolution_m: None,
+        };
+        tasks.extend(tasks_of(&source, &planners, &Files)?);
+    }
+    check_names(&tasks)?;
+    Ok(tasks)
+}
+
+/// All planners that the flags name, each once; flags that set parameters hold for all of them.
+fn contenders(args: &BenchArgs) -> Result<Vec<Contender>> {
     if args.ablations {
         let ablations = ABLATIONS.iter();
         return ablations

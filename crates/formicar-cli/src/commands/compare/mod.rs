@@ -1,22 +1,23 @@
 //! `compare`: two stores of the same scenarios, or two builds on them, with a verdict per metric.
 
 mod args;
-mod interleaved;
 
 pub(crate) use args::CompareArgs;
 
-use super::{machine, results};
+use super::{bench, machine, results};
 use crate::failure::{Ending, Failure};
 use anyhow::Result;
 use formicar_lab::analysis::compare::{Comparison, Scope, Side};
+use formicar_lab::campaign::{check_once, name_of_file, read_results, run_in_turns};
 use formicar_lab::report::{Fact, latex, markdown};
+use formicar_lab::run::{Program, to_csv};
 use std::io::Write;
 use std::path::Path;
 
 /// Carries out `compare`.
 pub(crate) fn run(args: &CompareArgs, out: &mut impl Write) -> Result<Ending, Failure> {
     let sides = match (&args.with, &args.b) {
-        (Some(other), _) => interleaved::sides(&args.a, other)?,
+        (Some(other), _) => sides_in_turns(&args.a, other)?,
         (None, Some(b)) => named_sides(&args.a, b)?,
         // One of the two is required.
         (None, None) => return Ok(Ending::Refused),
@@ -45,19 +46,35 @@ pub(crate) fn run(args: &CompareArgs, out: &mut impl Write) -> Result<Ending, Fa
     })
 }
 
+/// The runs of another build and those of this one.
+fn sides_in_turns(campaign: &Path, other: &Path) -> Result<[Side; 2]> {
+    let campaign = bench::read_campaign(campaign)?;
+    let (other, this) = (Program::at(other), Program::this()?);
+    let bar = bench::progress_bar(2 * campaign.runs.len());
+    let machine = machine::name();
+    let sides = run_in_turns(&campaign, [&other, &this], &machine, &mut || bar.inc(1));
+    bar.finish_and_clear();
+    let [of_other, of_this] = sides?;
+    let side = |name: &str, runs| Side {
+        name: name.to_owned(),
+        runs,
+    };
+    Ok([side("other build", of_other), side("this build", of_this)])
+}
+
 /// The runs of two files, under their names or, where these are the same, their paths.
 fn named_sides(a: &Path, b: &Path) -> Result<[Side; 2]> {
-    results::check_once(&[a, b])?;
-    let is_same = results::name(a) == results::name(b);
+    check_once(&[a, b])?;
+    let is_same = name_of_file(a) == name_of_file(b);
     let side = |path: &Path| -> Result<Side> {
         let name = if is_same {
             path.display().to_string()
         } else {
-            results::name(path)
+            name_of_file(path)
         };
         Ok(Side {
             name,
-            records: results::read(path)?.records,
+            runs: read_results(path)?.runs,
         })
     };
     Ok([side(a)?, side(b)?])
@@ -76,10 +93,7 @@ fn write(
     files.push(("tables.tex".to_owned(), latex(&report)));
     if with_tables {
         for (side, name) in sides.iter().zip(["a.csv", "b.csv"]) {
-            files.push((
-                name.to_owned(),
-                formicar_lab::campaign::to_csv(&side.records)?,
-            ));
+            files.push((name.to_owned(), to_csv(&side.runs)?));
         }
     }
     results::write_all(folder, &files)

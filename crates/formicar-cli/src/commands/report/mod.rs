@@ -8,8 +8,10 @@ use anyhow::{Result, bail};
 use clap::{Args, ValueHint};
 use formicar::numeric::counted;
 use formicar_lab::analysis::{ompl_logs, parameter_section, report};
-use formicar_lab::campaign::{ConfigRecord, Record, Stored, to_csv};
+use formicar_lab::campaign::{ConfigRecord, Stored, check_once, name_of_file, read_results};
 use formicar_lab::report::{Fact, latex, markdown, numbers_csv};
+use formicar_lab::run::{Origin, Run, to_csv};
+use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 use std::path::PathBuf;
@@ -30,15 +32,15 @@ pub(crate) struct ReportArgs {
 
 /// Carries out `report`.
 pub(crate) fn run(args: &ReportArgs, out: &mut impl Write) -> Result<Ending, Failure> {
-    results::check_once(&args.stores)?;
+    check_once(&args.stores)?;
     let mut stores = Vec::new();
     for path in &args.stores {
-        let is_it = |other: &&PathBuf| results::name(other) == results::name(path);
+        let is_it = |other: &&PathBuf| name_of_file(other) == name_of_file(path);
         let name = match args.stores.iter().filter(is_it).count() {
-            1 => results::name(path),
+            1 => name_of_file(path),
             _ => path.display().to_string(),
         };
-        stores.push((name, results::read(path)?));
+        stores.push((name, read_results(path)?));
     }
     check_records(&stores)?;
     tell_apart(&mut stores);
@@ -52,8 +54,8 @@ pub(crate) fn run(args: &ReportArgs, out: &mut impl Write) -> Result<Ending, Fai
         .collect();
     let title = title.join(", ");
     let paths = pictures::section(&stores);
-    let records: Vec<Record> = stores.into_iter().flat_map(|(_, s)| s.records).collect();
-    let mut report = report(&title, &records)?;
+    let runs: Vec<Run> = stores.into_iter().flat_map(|(_, s)| s.runs).collect();
+    let mut report = report(&title, &runs)?;
     report.sections.extend(paths);
     // Parameters are too long for a terminal.
     let told = markdown(&report);
@@ -61,34 +63,41 @@ pub(crate) fn run(args: &ReportArgs, out: &mut impl Write) -> Result<Ending, Fai
     let mut files = results::report_files(&report, &facts, &configs);
     files.push(("tables.tex".to_owned(), latex(&report)));
     files.push(("numbers.csv".to_owned(), numbers_csv(&report)?));
-    files.push(("results.csv".to_owned(), to_csv(&records)?));
-    let logs = ompl_logs(&records).into_iter();
+    files.push(("results.csv".to_owned(), to_csv(&runs)?));
+    let logs = ompl_logs(&runs).into_iter();
     files.extend(logs.map(|log| (log_name(&log.name), log.to_text())));
     results::write_all(&args.out, &files)?;
     write!(out, "{told}")?;
     let page = args.out.join("index.html");
-    let n_runs = counted(records.len(), "run");
+    let n_runs = counted(runs.len(), "run");
     writeln!(out, "\n{n_runs}: see {}", page.display())?;
     Ok(Ending::Done)
 }
 
 /// Refuses files that hold the same run, measured to the same digit: a store and its own table.
 fn check_records(stores: &[(String, Stored)]) -> Result<()> {
-    let mut known: BTreeMap<[&str; 3], &str> = BTreeMap::new();
+    let mut known: BTreeMap<(&str, [u64; 2]), &str> = BTreeMap::new();
     for (file, store) in stores {
-        for record in &store.records {
-            let measured = ["run", "total_s", "query_s"].map(|column| record.get(column));
-            if measured.iter().any(|value| value.is_empty()) {
+        for run in &store.runs {
+            let record = &run.record;
+            let (Some(total_s), Some(query_s)) = (record.total_s, record.query_s) else {
+                continue;
+            };
+            if run.origin.run.is_empty() {
                 continue;
             }
+            let measured = (
+                run.origin.run.as_str(),
+                [total_s, query_s].map(f64::to_bits),
+            );
             let other = *known.entry(measured).or_insert(file);
             if other != file {
                 bail!(
                     "{file} and {other} hold the same run of {} on {} with seed {}, which would \
                      count twice; hint: name one of them",
-                    record.get("planner"),
-                    record.get("scenario"),
-                    record.get("seed")
+                    record.planner,
+                    record.scenario,
+                    record.seed
                 );
             }
         }
@@ -106,17 +115,16 @@ fn log_name(name: &str) -> String {
 /// Adds the name of its file to a planner that several files name.
 fn tell_apart(stores: &mut [(String, Stored)]) {
     let planners = |store: &Stored| -> BTreeSet<String> {
-        let names = store.records.iter().map(|r| r.get("planner").to_owned());
+        let names = store.runs.iter().map(|run| run.record.planner.clone());
         names.collect()
     };
     let of_stores: Vec<_> = stores.iter().map(|(_, store)| planners(store)).collect();
     let is_shared = |name: &str| of_stores.iter().filter(|of| of.contains(name)).count() > 1;
     for (file, store) in stores.iter_mut() {
-        for record in &mut store.records {
-            let planner = record.get("planner").to_owned();
-            if is_shared(&planner) {
-                let told = format!("{planner} ({file})");
-                record.row.set("planner", &told.into());
+        for run in &mut store.runs {
+            let planner = &mut run.record.planner;
+            if is_shared(planner) {
+                *planner = format!("{planner} ({file})");
             }
         }
         for config in &mut store.configs {
@@ -131,18 +139,19 @@ fn tell_apart(stores: &mut [(String, Stored)]) {
 fn facts(stores: &[(String, Stored)]) -> Vec<Fact> {
     let mut facts = Vec::new();
     for (file, store) in stores {
-        let n_done = store.records.len();
+        let n_done = store.runs.len();
         let about = format!("`{file}`: {n_done} of {} runs are done", store.n_planned);
         facts.push(Fact::new("Store", about));
-        for (column, name) in [
-            ("machine", "Machine"),
-            ("version", "formicar"),
-            ("build", "Build"),
-            ("budget_steps", "Budget, steps"),
-            ("deadline_ms", "Deadline, ms"),
-        ] {
-            let values: BTreeSet<&str> = store.records.iter().map(|r| r.get(column)).collect();
-            let values: Vec<&str> = values.into_iter().filter(|v| !v.is_empty()).collect();
+        let origins: [(&str, fn(&Origin) -> String); 5] = [
+            ("Machine", |origin| origin.machine.clone()),
+            ("formicar", |origin| origin.version.clone()),
+            ("Build", |origin| origin.build.clone()),
+            ("Budget, steps", |origin| number(origin.budget_steps)),
+            ("Deadline, ms", |origin| number(origin.deadline_ms)),
+        ];
+        for (name, text) in origins {
+            let values: BTreeSet<String> = store.runs.iter().map(|run| text(&run.origin)).collect();
+            let values: Vec<String> = values.into_iter().filter(|v| !v.is_empty()).collect();
             if !values.is_empty() {
                 facts.push(Fact::new(name, values.join("; ")));
             }
@@ -151,7 +160,7 @@ fn facts(stores: &[(String, Stored)]) -> Vec<Fact> {
         if !at_once.is_empty() {
             facts.push(Fact::new("Runs at once", at_once.join("; ")));
         }
-        facts.extend(hashes(&store.records));
+        facts.extend(hashes(&store.runs));
         if !store.text.is_empty() {
             facts.push(Fact::new("Campaign", store.text.clone()));
         }
@@ -159,14 +168,22 @@ fn facts(stores: &[(String, Stored)]) -> Vec<Fact> {
     facts
 }
 
+fn number(value: Option<impl Serialize>) -> String {
+    value.map_or_else(String::new, |value| serde_json::json!(value).to_string())
+}
+
 /// The maps and vehicles of all scenarios, by hash.
-fn hashes(records: &[Record]) -> Vec<Fact> {
+fn hashes(runs: &[Run]) -> Vec<Fact> {
     let mut facts = Vec::new();
-    for (column, name) in [("map_hash", "Map"), ("vehicle_hash", "Vehicle")] {
-        let hashes: BTreeSet<&str> = records.iter().map(|r| r.get(column)).collect();
+    let of_origins: [(&str, fn(&Origin) -> &str); 2] = [
+        ("Map", |origin| &origin.map_hash),
+        ("Vehicle", |origin| &origin.vehicle_hash),
+    ];
+    for (name, of) in of_origins {
+        let hashes: BTreeSet<&str> = runs.iter().map(|run| of(&run.origin)).collect();
         for hash in hashes.into_iter().filter(|hash| !hash.is_empty()) {
-            let of_hash = records.iter().filter(|r| r.get(column) == hash);
-            let sources: BTreeSet<&str> = of_hash.map(|r| r.get("source")).collect();
+            let of_hash = runs.iter().filter(|run| of(&run.origin) == hash);
+            let sources: BTreeSet<&str> = of_hash.map(|run| run.record.source.as_str()).collect();
             let sources: Vec<&str> = sources.into_iter().collect();
             let about = format!("hash `{hash}`, in scenarios of {}", sources.join(", "));
             facts.push(Fact::new(name, about));

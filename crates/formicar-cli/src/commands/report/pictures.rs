@@ -1,11 +1,11 @@
 //! Paths of stores on their maps, planner over planner, and what the first one's is like.
 
-use crate::commands::bench::ground_args;
-use crate::scene;
+use crate::commands::bench::Files;
 use formicar::geometry::Point2;
 use formicar::path::CurvePath;
-use formicar_lab::campaign::{Job, Record, Stored};
+use formicar_lab::campaign::Stored;
 use formicar_lab::report::{Block, Overlay, OverlayPath, Section, strips};
+use formicar_lab::run::{Job, LoadedScenario, Run, Sources};
 use std::collections::BTreeSet;
 
 /// Scenarios that are drawn at most: the first ones.
@@ -25,8 +25,9 @@ struct Scene<'a> {
 pub(super) fn section(stores: &[(String, Stored)]) -> Option<Section> {
     let scenes = scenes(stores);
     let drawn = scenes.iter().filter_map(|scene| {
-        let args = ground_args(&scene.job.task, scene.job.vehicle_source());
-        Some(draw(scene, &scene::load(&args).ok()?))
+        let job = scene.job;
+        let scenario = Files.load(&job.task, job.vehicle_source());
+        Some(draw(scene, &scenario.ok()?))
     });
     let blocks: Vec<Block> = drawn.take(MOST_DRAWN).flatten().collect();
     (!blocks.is_empty()).then(|| Section {
@@ -38,10 +39,10 @@ pub(super) fn section(stores: &[(String, Stored)]) -> Option<Section> {
 fn scenes(stores: &[(String, Stored)]) -> Vec<Scene<'_>> {
     let mut scenes: Vec<Scene> = Vec::new();
     let mut known = BTreeSet::new();
-    for (record, job) in stores.iter().flat_map(|(_, store)| with_jobs(store)) {
-        let place = ["scenario", "vehicle", "motion"].map(|column| record.get(column));
-        let planner = record.get("planner");
-        let path = record
+    for (run, job) in stores.iter().flat_map(|(_, store)| with_jobs(store)) {
+        let place = run.place();
+        let planner = run.record.planner.as_str();
+        let path = run
             .path
             .as_ref()
             .and_then(formicar::planner::PathDocument::curve_path);
@@ -60,12 +61,12 @@ fn scenes(stores: &[(String, Stored)]) -> Vec<Scene<'_>> {
     scenes
 }
 
-fn with_jobs(store: &Stored) -> impl Iterator<Item = (&Record, &Job)> {
-    let with_job = |record| Some((record, store.jobs.get(Record::get(record, "run"))?));
-    store.records.iter().filter_map(with_job)
+fn with_jobs(store: &Stored) -> impl Iterator<Item = (&Run, &Job)> {
+    let runs = store.runs.iter();
+    runs.filter_map(|run| Some((run, store.jobs.get(&run.origin.run)?)))
 }
 
-fn draw(scene: &Scene, ground: &scene::Scene) -> Vec<Block> {
+fn draw(scene: &Scene, drawn: &LoadedScenario) -> Vec<Block> {
     let [scenario, vehicle, motion] = scene.place;
     let (planner, path) = &scene.paths[0];
     let vehicle_name = if vehicle.is_empty() { "own" } else { vehicle };
@@ -77,9 +78,9 @@ fn draw(scene: &Scene, ground: &scene::Scene) -> Vec<Block> {
         caption: format!(
             "`{scenario}`, vehicle {vehicle_name}, {motion}: the first path of every planner."
         ),
-        map: &ground.map,
+        map: &drawn.map,
         window: window(&paths),
-        vehicle: &ground.vehicle.vehicle,
+        vehicle: &drawn.vehicle,
         ends: [path.start(), path.end()],
         paths,
     };
@@ -87,7 +88,7 @@ fn draw(scene: &Scene, ground: &scene::Scene) -> Vec<Block> {
         "`{scenario}`: curvature, steering and clearance along the path of `{planner}`. Dashed \
          lines are the vehicle's limits."
     );
-    let along = strips(&caption, (&ground.map, &ground.vehicle.vehicle), path);
+    let along = strips(&caption, (&drawn.map, &drawn.vehicle), path);
     vec![Block::Figure(overlay.figure()), Block::Figure(along)]
 }
 

@@ -1,4 +1,4 @@
-//! What a metric says about two sides.
+//! The finding of a metric on two sides.
 
 use super::metric::{Better, Kind, METRICS, Metric, SUCCESS, Scope};
 use super::pairs::{Pair, Pairs};
@@ -14,7 +14,7 @@ const LEVEL: f64 = 0.05;
 /// come to lie in memory moves times by as much.
 const NOISE: f64 = 0.01;
 
-/// What is said of the second side beside the first.
+/// The verdict on the second side beside the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
@@ -63,7 +63,7 @@ pub struct Finding {
     /// Vargha & Delaney's A: how probable it is that the second side's value is above the first's,
     /// on one scenario, averaged over scenarios.
     pub above: Option<f64>,
-    /// What it comes to.
+    /// The verdict.
     pub verdict: Verdict,
 }
 
@@ -91,7 +91,7 @@ pub(super) fn findings(pairs: &Pairs, scope: Scope) -> Vec<Finding> {
     findings.collect()
 }
 
-/// Of which results one of several seeds counts, in words; none where there are none.
+/// The results of which one of several seeds counts, in words; none where there are none.
 pub(super) fn repeats(findings: &[Finding]) -> Option<String> {
     let still = findings.iter().filter(|finding| finding.n_still > 0);
     let still: Vec<String> = still

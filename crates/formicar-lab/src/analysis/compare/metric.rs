@@ -1,10 +1,10 @@
-//! What is compared.
+//! The metrics that are compared.
 
 use super::not_run::not_run;
-use crate::campaign::Record;
+use crate::run::{Run, RunRecord, number};
 use serde::Serialize;
 
-/// Which way a metric is better.
+/// The direction in which a metric is better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Better {
     /// The less, the better.
@@ -13,7 +13,7 @@ pub enum Better {
     Higher,
 }
 
-/// What a value depends on.
+/// The dependencies of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
@@ -23,7 +23,7 @@ pub enum Kind {
     Measurement,
 }
 
-/// Which metrics are compared.
+/// The metrics that are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
     /// All of them.
@@ -33,7 +33,7 @@ pub enum Scope {
 }
 
 impl Scope {
-    /// Whether a metric is compared.
+    /// True if a metric is compared.
     pub fn holds(self, metric: &Metric) -> bool {
         self == Self::All || metric.kind == Kind::Result
     }
@@ -44,15 +44,13 @@ impl Scope {
 pub struct Metric {
     /// Its name, with its unit.
     pub name: &'static str,
-    /// The column of the results.
-    pub column: &'static str,
-    /// Units of the name in one of the column.
-    pub scale: f64,
+    /// Its value in a record, in the unit of the name.
+    pub value: fn(&RunRecord) -> Option<f64>,
     /// Decimals that are written.
     pub n_decimals: usize,
-    /// Which way it is better.
+    /// The direction in which it is better.
     pub better: Better,
-    /// What it depends on.
+    /// Its dependencies.
     pub kind: Kind,
 }
 
@@ -61,82 +59,67 @@ pub const SUCCESS: &str = "success";
 
 /// The metrics in the order of the tables.
 pub const METRICS: [Metric; 10] = [
-    metric((SUCCESS, "valid"), 1.0, 3, Better::Higher, Kind::Result),
-    metric(
-        ("first path ms", "first_feasible_s"),
-        1e3,
-        2,
-        Better::Lower,
-        Kind::Measurement,
-    ),
-    metric(
-        ("query ms", "query_s"),
-        1e3,
-        2,
-        Better::Lower,
-        Kind::Measurement,
-    ),
-    metric(
-        ("length m", "length_m"),
-        1.0,
-        3,
-        Better::Lower,
-        Kind::Result,
-    ),
-    metric(("cost m", "cost_m"), 1.0, 3, Better::Lower, Kind::Result),
-    metric(
-        ("clearance m", "min_clearance_m"),
-        1.0,
-        3,
-        Better::Higher,
-        Kind::Result,
-    ),
-    metric(("cusps", "n_cusps"), 1.0, 1, Better::Lower, Kind::Result),
-    metric(
-        ("memory MB", "peak_rss_bytes"),
-        1e-6,
-        1,
-        Better::Lower,
-        Kind::Measurement,
-    ),
-    metric(("steps", "steps"), 1.0, 0, Better::Lower, Kind::Result),
-    metric(
-        ("steps to first path", "first_steps"),
-        1.0,
-        0,
-        Better::Lower,
-        Kind::Result,
-    ),
+    Metric {
+        name: SUCCESS,
+        value: |record| Some(f64::from(u8::from(record.is_solved()))),
+        n_decimals: 3,
+        better: Better::Higher,
+        kind: Kind::Result,
+    },
+    Metric {
+        kind: Kind::Measurement,
+        ..lower("first path ms", 2, |record| {
+            Some(record.first_feasible_s? * 1e3)
+        })
+    },
+    Metric {
+        kind: Kind::Measurement,
+        ..lower("query ms", 2, |record| Some(record.query_s? * 1e3))
+    },
+    lower("length m", 3, |record| record.length_m),
+    lower("cost m", 3, |record| record.cost_m),
+    Metric {
+        better: Better::Higher,
+        ..lower("clearance m", 3, |record| record.min_clearance_m)
+    },
+    lower("cusps", 1, |record| number(record.n_cusps)),
+    Metric {
+        kind: Kind::Measurement,
+        ..lower("memory MB", 1, |record| {
+            Some(number(record.peak_rss_bytes)? * 1e-6)
+        })
+    },
+    lower("steps", 0, |record| number(record.steps)),
+    lower("steps to first path", 0, |record| {
+        number(record.first_steps)
+    }),
 ];
 
-const fn metric(
-    (name, column): (&'static str, &'static str),
-    scale: f64,
+/// A result of which less is better.
+const fn lower(
+    name: &'static str,
     n_decimals: usize,
-    better: Better,
-    kind: Kind,
+    value: fn(&RunRecord) -> Option<f64>,
 ) -> Metric {
     Metric {
         name,
-        column,
-        scale,
+        value,
         n_decimals,
-        better,
-        kind,
+        better: Better::Lower,
+        kind: Kind::Result,
     }
 }
 
 impl Metric {
-    /// Its value of a run; none of a run without a certified path, but for success, which only
-    /// runs that did not take place have none of.
-    pub fn of(&self, record: &Record) -> Option<f64> {
-        let is_solved = record.row.is_solved();
-        if self.name == SUCCESS {
-            return not_run(record)
-                .is_none()
-                .then(|| f64::from(u8::from(is_solved)));
-        }
-        let value = record.row.number(self.column).filter(|_| is_solved)?;
-        Some(value * self.scale).filter(|v| v.is_finite())
+    /// Its value of a run: none without a certified path, except that success is known of every run
+    /// that took place.
+    pub fn of(&self, run: &Run) -> Option<f64> {
+        let is_known = if self.name == SUCCESS {
+            not_run(run).is_none()
+        } else {
+            run.record.is_solved()
+        };
+        let value = (self.value)(&run.record).filter(|value| value.is_finite());
+        value.filter(|_| is_known)
     }
 }

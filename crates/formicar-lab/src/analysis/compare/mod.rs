@@ -11,10 +11,10 @@ pub use finding::{Finding, Verdict};
 pub use metric::{Better, Kind, METRICS, Metric, SUCCESS, Scope};
 pub use tables::METHOD;
 
-pub(crate) use not_run::{not_run, told_not_run};
+pub(crate) use not_run::{describe_not_run, not_run};
 pub(crate) use pairs::paired;
 
-use crate::campaign::Record;
+use crate::run::Run;
 use anyhow::{Result, bail};
 use pairs::Pairs;
 use serde::Serialize;
@@ -22,10 +22,10 @@ use serde::Serialize;
 /// Runs under a name.
 #[derive(Clone, Debug, Default)]
 pub struct Side {
-    /// What it goes by in tables.
+    /// The name in tables.
     pub name: String,
     /// Its runs, of one planner or several.
-    pub records: Vec<Record>,
+    pub runs: Vec<Run>,
 }
 
 /// A second side beside a first one.
@@ -46,14 +46,14 @@ pub struct Duel {
     pub n_pairs: usize,
     /// Runs that only one has done.
     pub n_alone: [usize; 2],
-    /// What is to be known about the comparison.
+    /// Remarks on the comparison.
     pub notes: Vec<String>,
     /// Runs that the first solves and the second does not: scenario, seed, vehicle and motion
     /// where there are several, and the status where the second did not run.
     pub lost: Vec<String>,
     /// Runs that the second solves and the first does not.
     pub gained: Vec<String>,
-    /// What each metric says.
+    /// The findings, metric by metric.
     pub findings: Vec<Finding>,
 }
 
@@ -63,10 +63,10 @@ impl Comparison {
     /// # Errors
     /// Sides without a planner or a run in common; scenarios of one name that are not the same.
     pub fn new(a: &Side, b: &Side, scope: Scope) -> Result<Self> {
-        let of_sides = [planners(&a.records), planners(&b.records)];
+        let of_sides = [planners(&a.runs), planners(&b.runs)];
         let mut duels = Vec::new();
         for [of_a, of_b] in opponents(&of_sides) {
-            let (of_a, of_b) = (runs_of(&a.records, of_a), runs_of(&b.records, of_b));
+            let (of_a, of_b) = (runs_of(&a.runs, of_a), runs_of(&b.runs, of_b));
             duels.push(Duel::new(&of_a, &of_b, scope)?);
         }
         if duels.is_empty() {
@@ -91,13 +91,13 @@ impl Comparison {
         })
     }
 
-    /// Whether any metric is worse.
+    /// True if any metric is worse.
     pub fn is_worse(&self) -> bool {
         let mut findings = self.duels.iter().flat_map(|duel| &duel.findings);
         findings.any(|finding| finding.verdict == Verdict::Worse)
     }
 
-    /// Whether any run that the first side solves is not solved by the second.
+    /// True if the first side solves a run that the second does not.
     pub fn has_lost(&self) -> bool {
         self.duels.iter().any(|duel| !duel.lost.is_empty())
     }
@@ -108,9 +108,12 @@ impl Duel {
     ///
     /// # Errors
     /// Scenarios of one name that are not the same.
-    pub fn new(a: &[&Record], b: &[&Record], scope: Scope) -> Result<Self> {
+    pub fn new(a: &[&Run], b: &[&Run], scope: Scope) -> Result<Self> {
         let pairs = Pairs::new(a, b)?;
-        let planner = |of: &[&Record]| of.first().map_or("", |r| r.get("planner")).to_owned();
+        let planner = |of: &[&Run]| {
+            let first = of.first();
+            first.map_or_else(String::new, |run| run.record.planner.clone())
+        };
         let findings = finding::findings(&pairs, scope);
         let notes = [
             pairs.unlike_measurements().filter(|_| scope == Scope::All),
@@ -132,10 +135,10 @@ impl Duel {
 }
 
 /// The planners of runs, in the order of their first.
-pub(crate) fn planners(records: &[Record]) -> Vec<&str> {
-    let mut names = Vec::new();
-    for record in records {
-        let name = record.get("planner");
+pub(crate) fn planners(runs: &[Run]) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    for run in runs {
+        let name = run.record.planner.as_str();
         if !names.contains(&name) {
             names.push(name);
         }
@@ -144,9 +147,9 @@ pub(crate) fn planners(records: &[Record]) -> Vec<&str> {
 }
 
 /// The runs of a planner.
-pub(crate) fn runs_of<'a>(records: &'a [Record], planner: &str) -> Vec<&'a Record> {
-    let records = records.iter();
-    records.filter(|r| r.get("planner") == planner).collect()
+pub(crate) fn runs_of<'a>(runs: &'a [Run], planner: &str) -> Vec<&'a Run> {
+    let runs = runs.iter();
+    runs.filter(|run| run.record.planner == planner).collect()
 }
 
 fn opponents<'a>([a, b]: &[Vec<&'a str>; 2]) -> Vec<[&'a str; 2]> {

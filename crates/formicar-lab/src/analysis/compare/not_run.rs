@@ -1,25 +1,30 @@
-//! Runs that did not take place: they say nothing of how well a planner does.
+//! Runs that did not take place, which say nothing about a planner.
 
-use crate::campaign::Record;
+use crate::run::{Run, RunStatus};
 
 /// The statuses of such runs: a program of others that is not installed, and requests that a
 /// planner does not plan for.
-const NOT_RUN: [&str; 3] = ["unavailable", "refused", "invalid_request"];
+const NOT_RUN: [RunStatus; 3] = [
+    RunStatus::Unavailable,
+    RunStatus::Refused,
+    RunStatus::InvalidRequest,
+];
 
 /// The status of a run that did not take place; none of one that did.
-pub(crate) fn not_run(record: &Record) -> Option<&'static str> {
-    let status = record.get("status");
-    NOT_RUN.into_iter().find(|name| *name == status)
+pub(crate) fn not_run(run: &Run) -> Option<RunStatus> {
+    Some(run.record.status).filter(|status| NOT_RUN.contains(status))
 }
 
-/// How many runs did not take place and why, in words; none where all did.
-pub(crate) fn told_not_run(runs: &[&Record]) -> Option<String> {
-    let told = NOT_RUN.into_iter().filter_map(|status| {
+/// The number of runs that did not take place and the reasons, in words; none where all did.
+pub(crate) fn describe_not_run(runs: &[&Run]) -> Option<String> {
+    let parts = NOT_RUN.into_iter().filter_map(|status| {
         let mut reasons = Vec::new();
-        let of_status = runs.iter().filter(|run| not_run(run) == Some(status));
-        let n = of_status.map(|run| reasons.push(run.get("reason"))).count();
+        let of_status = runs.iter().filter(|run| run.record.status == status);
+        let n = of_status
+            .map(|run| reasons.push(run.record.reason.as_str()))
+            .count();
         reasons.dedup();
-        let words = status.replace('_', " ");
+        let words = status.name().replace('_', " ");
         match reasons[..] {
             [] => None,
             [""] => Some(format!("{n} ({words})")),
@@ -27,36 +32,37 @@ pub(crate) fn told_not_run(runs: &[&Record]) -> Option<String> {
             [reason, ..] => Some(format!("{n} ({words}, the first: {reason})")),
         }
     });
-    let told: Vec<String> = told.collect();
-    (!told.is_empty()).then(|| told.join(", "))
+    let parts: Vec<String> = parts.collect();
+    (!parts.is_empty()).then(|| parts.join(", "))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use serde_json::json;
+    use crate::run::RunRecord;
 
     #[test]
     fn runs_that_did_not_take_place_are_told_with_their_reason() {
-        let run = |status: &str, reason: &str| {
-            let mut record = Record::default();
-            record
-                .row
-                .fill(&json!({"status": status, "reason": reason}));
-            record
+        let run = |status: RunStatus, reason: &str| Run {
+            record: RunRecord {
+                status,
+                reason: reason.to_owned(),
+                ..RunRecord::default()
+            },
+            ..Run::default()
         };
         let runs = [
-            run("unavailable", "not installed"),
-            run("no_path", "too narrow"),
-            run("unavailable", "not installed"),
-            run("invalid_request", "a point"),
-            run("invalid_request", "a goal in an obstacle"),
+            run(RunStatus::Unavailable, "not installed"),
+            run(RunStatus::NoPath, "too narrow"),
+            run(RunStatus::Unavailable, "not installed"),
+            run(RunStatus::InvalidRequest, "a point"),
+            run(RunStatus::InvalidRequest, "a goal in an obstacle"),
         ];
-        let runs: Vec<&Record> = runs.iter().collect();
+        let runs: Vec<&Run> = runs.iter().collect();
         assert_eq!(
-            told_not_run(&runs).unwrap(),
+            describe_not_run(&runs).unwrap(),
             "2 (unavailable: not installed), 2 (invalid request, the first: a point)"
         );
-        assert_eq!(told_not_run(&runs[1..2]), None);
+        assert_eq!(describe_not_run(&runs[1..2]), None);
     }
 }

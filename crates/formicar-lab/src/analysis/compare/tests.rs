@@ -9,20 +9,19 @@ type Values = fn(usize) -> serde_json::Value;
 /// Twelve scenarios with two seeds each.
 fn side(name: &str, planner: &str, values: Values) -> Side {
     let record = |i: usize| {
-        let mut record = Record::default();
-        record.row.fill(&json!({
+        let mut run = Run::default();
+        run.record.fill(&json!({
             "scenario": format!("s{}", i / 2), "planner": planner, "seed": i % 2,
             "status": "found", "valid": true,
         }));
-        record.row.fill(&values(i));
-        for (column, value) in [("machine", "one"), ("build", "release"), ("map_hash", "m")] {
-            record.origin.set(column, value);
-        }
-        record
+        run.record.fill(&values(i));
+        run.origin
+            .fill(&json!({"machine": "one", "build": "release", "map_hash": "m"}));
+        run
     };
     Side {
         name: name.to_owned(),
-        records: (0..24).map(record).collect(),
+        runs: (0..24).map(record).collect(),
     }
 }
 
@@ -105,9 +104,9 @@ fn a_side_does_not_differ_from_itself() {
 /// Runs with a vehicle of a name and a hash.
 fn driven_by(vehicle: [&str; 2], side: &Side) -> Side {
     let mut side = side.clone();
-    for record in &mut side.records {
-        record.origin.set("vehicle", vehicle[0]);
-        record.origin.set("vehicle_hash", vehicle[1]);
+    for run in &mut side.runs {
+        run.origin.vehicle = vehicle[0].to_owned();
+        run.origin.vehicle_hash = vehicle[1].to_owned();
     }
     side
 }
@@ -125,7 +124,7 @@ fn one_vehicle_under_two_names_is_one_vehicle() {
     // Both names on both sides are no more evidence than one.
     let both = |side: &Side| {
         let mut both = driven_by(own, side);
-        both.records.extend(driven_by(sedan, side).records);
+        both.runs.extend(driven_by(sedan, side).runs);
         both
     };
     let found = compare(&both(&a), &both(&b));
@@ -209,18 +208,18 @@ fn seeds_that_change_nothing_count_once() {
 fn success_counts_once_where_only_the_length_varies() {
     let is_of_first = |i: usize| i < 32;
     let scenario = move |i: usize| if is_of_first(i) { i / 16 } else { i - 30 };
-    let run = |i: usize, is_solved: bool| {
-        let mut record = Record::default();
-        record.row.fill(&json!({
+    let run_of = |i: usize, is_solved: bool| {
+        let mut run = Run::default();
+        run.record.fill(&json!({
             "scenario": format!("s{}", scenario(i)), "seed": if is_of_first(i) { i % 16 } else { 0 },
             "status": if is_solved { "found" } else { "no_path" }, "valid": is_solved,
             "length_m": if is_of_first(i) { 10.0 + i as f64 } else { 10.0 },
         }));
-        record
+        run
     };
     let side = |name: &str, solves: &dyn Fn(usize) -> bool| Side {
         name: name.to_owned(),
-        records: (0..46).map(|i| run(i, solves(i))).collect(),
+        runs: (0..46).map(|i| run_of(i, solves(i))).collect(),
     };
     let found = compare(&side("a", &is_of_first), &side("b", &|i| !is_of_first(i)));
     let success = &found.duels[0].findings[0];
@@ -256,17 +255,17 @@ fn runs_of_several_vehicles_are_told_apart() {
     let (mut a, mut b) = (side("a", "p", base), side("b", "p", failing));
     for vehicle in ["own", "f1tenth"] {
         for side in [&mut a, &mut b] {
-            let mut records = side.records[..2].to_vec();
-            for record in &mut records {
-                record.origin.set("vehicle", vehicle);
+            let mut runs = side.runs[..2].to_vec();
+            for run in &mut runs {
+                run.origin.vehicle = vehicle.to_owned();
             }
-            side.records.extend(records);
+            side.runs.extend(runs);
         }
     }
     for side in [&mut a, &mut b] {
-        side.records.drain(..24);
+        side.runs.drain(..24);
         // Tables that are joined may hold a run twice.
-        side.records.extend_from_within(..1);
+        side.runs.extend_from_within(..1);
     }
     let lost = &compare(&a, &b).duels[0].lost;
     let names = [
@@ -281,8 +280,8 @@ fn runs_of_several_vehicles_are_told_apart() {
 #[test]
 fn times_of_other_machines_do_not_compare() {
     let (a, mut b) = (side("a", "p", base), side("b", "p", other));
-    for record in &mut b.records {
-        record.origin.set("machine", "two");
+    for run in &mut b.runs {
+        run.origin.machine = "two".to_owned();
     }
     let found = compare(&a, &b);
     for metric in ["first path ms", "query ms", "memory MB"] {
@@ -298,16 +297,16 @@ fn sides_that_have_nothing_in_common_are_refused() {
     // One planner each: those are compared, whatever they are called.
     assert_eq!(compare(&a, &side("b", "q", base)).duels.len(), 1);
     let mut two = side("b", "q", base);
-    two.records.extend(side("b", "r", base).records);
+    two.runs.extend(side("b", "r", base).runs);
     let told = |b: &Side| Comparison::new(&a, b, Scope::All).unwrap_err().to_string();
     assert!(told(&two).contains("a has p; b has q, r"));
     let mut moved = side("b", "p", base);
-    for record in &mut moved.records {
-        record.origin.set("map_hash", "n");
+    for run in &mut moved.runs {
+        run.origin.map_hash = "n".to_owned();
     }
     assert!(told(&moved).contains("the maps of the two sides are not the same (m and n)"));
-    for record in &mut moved.records {
-        record.origin.set("vehicle", "sedan");
+    for run in &mut moved.runs {
+        run.origin.vehicle = "sedan".to_owned();
     }
     assert!(told(&moved).contains("no run in common"));
 }

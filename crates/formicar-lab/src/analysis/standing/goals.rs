@@ -2,10 +2,11 @@
 
 use super::numbers::{Runs, largest, median, p90};
 use crate::report::{Field, Table};
+use crate::run::{RunRecord, RunStatus, number};
 
 /// Goals for maps of a size: columns and rows, map set-up (median), and the first path (median,
 /// p90, largest), milliseconds.
-const SIZES: [([u32; 2], f64, [f64; 3]); 3] = [
+const SIZES: [([u64; 2], f64, [f64; 3]); 3] = [
     ([800, 500], 1.5, [8.0, 35.0, 110.0]),
     ([2000, 2000], 15.0, [25.0, f64::INFINITY, f64::INFINITY]),
     ([5000, 5000], 100.0, [150.0, f64::INFINITY, f64::INFINITY]),
@@ -70,7 +71,11 @@ pub(super) fn own(runs: &Runs) -> Vec<Goal> {
 }
 
 fn certified(runs: &Runs) -> Goal {
-    let n_found = runs.all.iter().filter(|run| run.status == "found").count();
+    let n_found = runs
+        .all
+        .iter()
+        .filter(|run| run.status == RunStatus::Found)
+        .count();
     let n_solved = runs.n_solved();
     let reached = format!("{n_solved} of {n_found}");
     Goal::new(
@@ -83,7 +88,7 @@ fn certified(runs: &Runs) -> Goal {
 
 fn of_size(
     runs: &Runs,
-    [n_cols, n_rows]: [u32; 2],
+    [n_cols, n_rows]: [u64; 2],
     setup_ms: f64,
     first_ms: [f64; 3],
 ) -> Vec<Goal> {
@@ -147,7 +152,7 @@ fn judge(runs: &Runs) -> Option<Goal> {
 }
 
 fn memory(runs: &Runs) -> Option<Goal> {
-    let largest_mb = largest(&runs.values(|run| run.peak_rss_bytes))? / 1e6;
+    let largest_mb = largest(&runs.values(|run| number(run.peak_rss_bytes)))? / 1e6;
     let (wanted, reached) = (format!("<= {PEAK_MB} MB"), format!("{largest_mb:.1} MB"));
     Some(Goal::new(
         "peak memory",
@@ -161,7 +166,7 @@ fn clearance(runs: &Runs) -> Option<Goal> {
     let allowed = runs.only(|run| run.ends_clearance_m.is_some_and(|m| m >= CLEARANCE_M));
     let n_scenarios = allowed.by_scenario.len();
     // No path keeps no clearance.
-    let of_scenario = |runs: &Vec<&super::Measured>| {
+    let of_scenario = |runs: &Vec<&RunRecord>| {
         let values = runs.iter().map(|run| run.min_clearance_m.unwrap_or(0.0));
         median(&values.collect::<Vec<_>>())
     };

@@ -1,45 +1,30 @@
-//! How runs on car scenarios stand: beside goals, beside peers on the same scenarios, and beside
-//! variants of themselves.
+//! Runs on car scenarios beside goals, beside peers on the same scenarios, and beside variants of
+//! themselves.
 
 mod goals;
-mod measured;
 mod numbers;
 mod peers;
 mod rivals;
 mod tables;
 
-pub use measured::Measured;
 pub use peers::Peer;
 
 use crate::report::{Report, Section};
-use anyhow::Result;
+use crate::run::RunRecord;
 use numbers::Runs;
 
-/// Runs of some planners, and what peers reached on the same scenarios.
+/// Runs of some planners, and the results of peers on the same scenarios.
 #[derive(Clone, Debug, Default)]
 pub struct Standing {
     /// The runs.
-    pub runs: Vec<Measured>,
-    /// The peers; none where nothing is known of any.
+    pub runs: Vec<RunRecord>,
+    /// The peers, if any are known.
     pub peers: Vec<Peer>,
-    /// Whether the runs were allowed to drive forward only: their peers are those that drive
-    /// Dubins curves.
+    /// True if the runs could drive forward only: their peers are those that drive Dubins curves.
     pub forward_only: bool,
 }
 
 impl Standing {
-    /// Of the text of a `results.csv`, and of peers where there are any.
-    ///
-    /// # Errors
-    /// A table with other columns, or with values that are none.
-    pub fn read(results: &str, peers: Vec<Peer>, forward_only: bool) -> Result<Self> {
-        Ok(Self {
-            runs: measured::read(results)?,
-            peers,
-            forward_only,
-        })
-    }
-
     /// Goals, variants, peers and all runs, in this order.
     pub fn report(&self) -> Report {
         let of_planners = self.planners().into_iter().map(|name| self.runs_of(name));

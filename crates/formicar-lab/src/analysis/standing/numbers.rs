@@ -1,21 +1,21 @@
 //! Runs by scenario.
 
-use super::Measured;
 use crate::analysis::statistics::quantile;
+use crate::run::RunRecord;
 use std::collections::BTreeMap;
 
 /// The runs of one planner.
 pub(super) struct Runs<'a> {
     pub(super) planner: &'a str,
-    pub(super) all: Vec<&'a Measured>,
+    pub(super) all: Vec<&'a RunRecord>,
     /// The runs of each scenario.
-    pub(super) by_scenario: BTreeMap<&'a str, Vec<&'a Measured>>,
+    pub(super) by_scenario: BTreeMap<&'a str, Vec<&'a RunRecord>>,
 }
 
 impl<'a> Runs<'a> {
-    pub(super) fn new(runs: impl IntoIterator<Item = &'a Measured>) -> Self {
-        let all: Vec<&Measured> = runs.into_iter().collect();
-        let mut by_scenario: BTreeMap<&str, Vec<&Measured>> = BTreeMap::new();
+    pub(super) fn new(runs: impl IntoIterator<Item = &'a RunRecord>) -> Self {
+        let all: Vec<&RunRecord> = runs.into_iter().collect();
+        let mut by_scenario: BTreeMap<&str, Vec<&RunRecord>> = BTreeMap::new();
         for run in &all {
             by_scenario.entry(&run.scenario).or_default().push(run);
         }
@@ -27,7 +27,7 @@ impl<'a> Runs<'a> {
     }
 
     /// The same runs, of some scenarios alone.
-    pub(super) fn only(&self, is_wanted: impl Fn(&Measured) -> bool) -> Self {
+    pub(super) fn only(&self, is_wanted: impl Fn(&RunRecord) -> bool) -> Self {
         let runs = self.all.iter().copied().filter(|run| is_wanted(run));
         Self {
             planner: self.planner,
@@ -48,7 +48,7 @@ impl<'a> Runs<'a> {
     }
 
     /// A value of every run that has it.
-    pub(super) fn values(&self, of: impl Fn(&Measured) -> Option<f64>) -> Vec<f64> {
+    pub(super) fn values(&self, of: impl Fn(&RunRecord) -> Option<f64>) -> Vec<f64> {
         self.all.iter().filter_map(|run| of(run)).collect()
     }
 
@@ -62,7 +62,7 @@ impl<'a> Runs<'a> {
     pub(super) fn median_of(
         &self,
         scenario: &str,
-        of: impl Fn(&Measured) -> Option<f64>,
+        of: impl Fn(&RunRecord) -> Option<f64>,
     ) -> Option<f64> {
         let runs = self.by_scenario.get(scenario)?;
         let values: Vec<f64> = runs
@@ -74,7 +74,7 @@ impl<'a> Runs<'a> {
 }
 
 /// Time to the first certified path, or forever.
-pub(super) fn first_s(run: &Measured) -> f64 {
+pub(super) fn first_s(run: &RunRecord) -> f64 {
     let first_s = run.first_feasible_s.filter(|_| run.is_solved());
     first_s.unwrap_or(f64::INFINITY)
 }

@@ -1,4 +1,4 @@
-//! What other tools reached on the same scenarios.
+//! Results of other tools on the same scenarios.
 
 use anyhow::{Context, Result};
 use serde::Deserialize;
@@ -16,11 +16,11 @@ pub struct Peer {
     pub valid: Option<u8>,
     /// Time to its first path, seconds.
     pub first_s: Option<f64>,
-    /// Length of its path after 1 s, metres.
+    /// Length of its path after 1 s, meters.
     pub length_1s_m: Option<f64>,
     /// Changes of gear.
     pub cusps: Option<f64>,
-    /// Least clearance, metres.
+    /// Least clearance, meters.
     pub min_clearance_m: Option<f64>,
     /// Most memory, megabytes.
     pub peak_mb: Option<f64>,
@@ -37,12 +37,12 @@ impl Peer {
         rows.context("a table of peers")
     }
 
-    /// Whether its path can be driven.
+    /// True if its path can be driven.
     pub(super) fn is_valid(&self) -> bool {
         self.solved == 1 && self.valid == Some(1)
     }
 
-    /// Whether it drives forward only.
+    /// True if it drives forward only.
     pub(super) fn is_dubins(&self) -> bool {
         self.peer.ends_with("dubins")
     }

@@ -2,7 +2,8 @@
 
 use super::goals::{Goal, ms};
 use super::numbers::{Runs, first_s, largest, median, p90, smallest};
-use super::{Measured, Peer, Standing};
+use super::{Peer, Standing};
+use crate::run::{RunRecord, number};
 use std::collections::BTreeMap;
 
 /// How many times faster than Smac, at the median.
@@ -73,7 +74,7 @@ impl Standing {
         runs: &Runs,
         by: &str,
         most: f64,
-        length_m: impl Fn(&Measured) -> Option<f64>,
+        length_m: impl Fn(&RunRecord) -> Option<f64>,
     ) -> Option<Goal> {
         let ratio = |scenario: &&str| {
             let best = self.valid(scenario).filter_map(|peer| peer.length_1s_m);
@@ -96,7 +97,7 @@ impl Standing {
 
     /// Beside the peer with the fewest changes of gear on average over its valid paths.
     fn fewer_cusps(&self, runs: &Runs) -> Option<Goal> {
-        let n_ours = |scenario: &str| runs.median_of(scenario, |run| run.n_cusps);
+        let n_ours = |scenario: &str| runs.median_of(scenario, |run| number(run.n_cusps));
         let mut by_peer: BTreeMap<&str, Vec<[f64; 2]>> = BTreeMap::new();
         for peer in self.rivals().filter(|p| p.is_valid()) {
             // Who drives forward only where reverse is allowed solves other, easier scenarios.

@@ -1,8 +1,9 @@
 //! Runs as sections of a report.
 
 use super::numbers::{Runs, first_s, median, p90};
-use super::{Measured, Peer, Standing, goals};
+use super::{Peer, Standing, goals};
 use crate::report::{Block, Field, Section, Table};
+use crate::run::{RunRecord, RunStatus, number};
 
 /// Goals of a planner, and whether they are met.
 pub(super) fn goals(standing: &Standing, runs: &Runs) -> Section {
@@ -43,9 +44,9 @@ pub(super) fn variants(of_planners: &[Runs]) -> Section {
 }
 
 fn variant(runs: &Runs, first: &Runs) -> Vec<Field> {
-    let value = |of: fn(&Measured) -> Option<f64>| median(&runs.values(of));
-    let ratio = |of: fn(&Measured) -> Option<f64>| {
-        let ratio = |run: &Measured| {
+    let value = |of: fn(&RunRecord) -> Option<f64>| median(&runs.values(of));
+    let ratio = |of: fn(&RunRecord) -> Option<f64>| {
+        let ratio = |run: &RunRecord| {
             let same = first.by_scenario.get(run.scenario.as_str())?;
             let same = same.iter().find(|other| other.seed == run.seed)?;
             Some(of(run)? / of(same)?)
@@ -53,15 +54,15 @@ fn variant(runs: &Runs, first: &Runs) -> Vec<Field> {
         median(&runs.values(ratio))
     };
     let first_s = runs.first_s();
-    let cusps = runs.values(|run| run.n_cusps);
+    let cusps = runs.values(|run| number(run.n_cusps));
     let mean_cusps = cusps.iter().sum::<f64>() / cusps.len() as f64;
     vec![
         Field::words(runs.planner),
         Field::Count(runs.n_solved(), runs.all.len()),
         time(median(&first_s)),
         time(p90(&first_s)),
-        Field::Number(value(|run| run.first_steps), 0),
-        Field::Number(value(|run| run.steps), 0),
+        Field::Number(value(|run| number(run.first_steps)), 0),
+        Field::Number(value(|run| number(run.steps)), 0),
         time(value(|run| run.query_s)),
         Field::Number(ratio(|run| run.first_length_m), 4),
         Field::Number(ratio(|run| run.length_m), 4),
@@ -115,20 +116,23 @@ pub(super) fn beside_peers(standing: &Standing, of_planners: &[Runs]) -> Vec<Sec
 fn our_row(scenario: &str, all: &Runs) -> Vec<Field> {
     let runs = all.only(|run| run.scenario == scenario);
     let value =
-        |of: fn(&Measured) -> Option<f64>| all.median_of(scenario, of).filter(|v| v.is_finite());
-    let peaks = runs.values(|run| run.peak_rss_bytes);
+        |of: fn(&RunRecord) -> Option<f64>| all.median_of(scenario, of).filter(|v| v.is_finite());
+    let peaks = runs.values(|run| number(run.peak_rss_bytes));
     let n = runs.all.len();
     vec![
         Field::Words(format!("{scenario} {}", all.planner)),
         Field::Count(
-            runs.all.iter().filter(|run| run.status == "found").count(),
+            runs.all
+                .iter()
+                .filter(|run| run.status == RunStatus::Found)
+                .count(),
             n,
         ),
         Field::Count(runs.n_solved(), n),
         time(all.median_of(scenario, |run| Some(first_s(run)))),
         Field::Number(value(|run| run.length_by_tenth_m), 2),
         Field::Number(value(|run| run.length_by_second_m), 2),
-        Field::Number(value(|run| run.n_cusps), 1),
+        Field::Number(value(|run| number(run.n_cusps)), 1),
         Field::Number(value(|run| run.min_clearance_m), 3),
         Field::Number(
             peaks.into_iter().reduce(f64::max).map(|bytes| bytes / 1e6),
@@ -176,7 +180,7 @@ pub(super) fn runs(runs: &Runs) -> Section {
     for run in &runs.all {
         table.row(vec![
             Field::Words(format!("{} seed {}", run.scenario, run.seed)),
-            Field::words(&run.status),
+            Field::words(run.status.name()),
             time(run.first_feasible_s),
             time(run.query_s),
             Field::Number(run.first_length_m, 2),
@@ -184,9 +188,9 @@ pub(super) fn runs(runs: &Runs) -> Section {
             Field::Number(run.length_by_second_m, 2),
             Field::Number(run.length_m, 2),
             Field::Number(run.min_clearance_m, 3),
-            Field::Number(run.n_cusps, 0),
-            Field::Number(run.steps, 0),
-            Field::Number(run.peak_rss_bytes.map(|bytes| bytes / 1e6), 1),
+            Field::Number(number(run.n_cusps), 0),
+            Field::Number(number(run.steps), 0),
+            Field::Number(number(run.peak_rss_bytes).map(|bytes| bytes / 1e6), 1),
         ]);
     }
     let heading = format!("Every run of `{}`", runs.planner);

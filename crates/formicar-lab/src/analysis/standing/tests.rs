@@ -1,5 +1,6 @@
 use super::*;
 use crate::report::{Field, Table, markdown};
+use crate::run::{RunStatus, read_csv};
 
 const PEERS: &str = "\
 scenario,peer,solved,valid,first_s,length_1s_m,cusps,min_clearance_m,peak_mb
@@ -11,12 +12,12 @@ b,ompl-rrtconnect-rs,1,1,0.04,20,3,0.04,26.1
 ";
 
 /// A run of a scenario of one map: the first path after so long.
-fn run(scenario: &str, seed: u64, first_s: f64) -> Measured {
-    Measured {
+fn run(scenario: &str, seed: u64, first_s: f64) -> RunRecord {
+    RunRecord {
         scenario: scenario.to_owned(),
         planner: "formicar".to_owned(),
         seed,
-        status: "found".to_owned(),
+        status: RunStatus::Found,
         valid: Some(true),
         source: "map".to_owned(),
         first_feasible_s: Some(first_s),
@@ -26,12 +27,12 @@ fn run(scenario: &str, seed: u64, first_s: f64) -> Measured {
         cost_m: Some(12.0),
         ends_clearance_m: Some(0.5),
         min_clearance_m: Some(0.3),
-        n_cusps: Some(2.0),
-        ..Measured::default()
+        n_cusps: Some(2),
+        ..RunRecord::default()
     }
 }
 
-fn standing(runs: Vec<Measured>) -> Standing {
+fn standing(runs: Vec<RunRecord>) -> Standing {
     Standing {
         runs,
         peers: Peer::read(PEERS).unwrap(),
@@ -87,8 +88,8 @@ fn goals_are_held_against_the_peers_of_each_scenario() {
 
 #[test]
 fn a_run_without_a_path_takes_forever() {
-    let lost = Measured {
-        status: "no_path".to_owned(),
+    let lost = RunRecord {
+        status: RunStatus::NoPath,
         valid: None,
         length_by_second_m: None,
         ..run("b", 0, 0.01)
@@ -105,7 +106,7 @@ fn a_run_without_a_path_takes_forever() {
 
 #[test]
 fn every_peer_stands_beside_ours_and_variants_beside_the_first() {
-    let other = Measured {
+    let other = RunRecord {
         planner: "formicar-without-ants".to_owned(),
         cost_m: Some(15.0),
         ..run("a", 0, 0.02)
@@ -149,8 +150,8 @@ fn tables_with_missing_values_are_read() {
     assert_eq!((peers[3].solved, peers[3].length_1s_m), (0, None));
     assert!(Peer::read("scenario,peer\na,b\n").is_err());
     let columns = "scenario,planner,seed,status,valid,source,length_0.1s_m,length_1s_m\n";
-    let runs = measured::read(&format!("{columns}a,formicar,3,found,true,m,,9.5\n"));
-    let run = &runs.unwrap()[0];
+    let runs = read_csv(&format!("{columns}a,formicar,3,found,true,m,,9.5\n"));
+    let run = &runs.unwrap()[0].record;
     assert_eq!(
         (run.seed, run.valid, run.length_by_second_m),
         (3, Some(true), Some(9.5))

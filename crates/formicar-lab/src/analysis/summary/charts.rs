@@ -1,11 +1,10 @@
 //! Runs of stores as charts: how values are spread, how pairs differ, how paths get better.
 
-use super::report::place;
 use crate::analysis::compare::{METRICS, Metric, planners, runs_of};
-use crate::campaign::{Improvement, Record};
 use crate::report::{
     Block, BoxGroup, BoxPlot, PairedPanel, PairedPlot, Section, Trend, TrendPanel, Trends,
 };
+use crate::run::{Improvement, Run};
 use formicar::render::AxisScale;
 use std::collections::BTreeMap;
 
@@ -21,11 +20,11 @@ fn metrics<'a>(names: &'a [&str]) -> impl Iterator<Item = &'static Metric> + 'a 
 }
 
 /// The least value of a metric in each place, whoever reached it.
-fn least<'a>(records: &'a [Record], metric: &Metric) -> BTreeMap<[&'a str; 3], f64> {
+fn least<'a>(runs: &'a [Run], metric: &Metric) -> BTreeMap<[&'a str; 3], f64> {
     let mut least = BTreeMap::new();
-    for record in records {
-        if let Some(value) = metric.of(record).filter(|value| *value > 0.0) {
-            let entry = least.entry(place(record)).or_insert(value);
+    for run in runs {
+        if let Some(value) = metric.of(run).filter(|value| *value > 0.0) {
+            let entry = least.entry(run.place()).or_insert(value);
             *entry = value.min(*entry);
         }
     }
@@ -33,22 +32,22 @@ fn least<'a>(records: &'a [Record], metric: &Metric) -> BTreeMap<[&'a str; 3], f
 }
 
 /// Every planner's values, as boxes.
-pub(super) fn spreads(records: &[Record]) -> Section {
+pub(super) fn spreads(runs: &[Run]) -> Section {
     let mut blocks = Vec::new();
     for metric in metrics(&TIMES) {
-        let of = |record: &Record| metric.of(record);
-        blocks.extend(spread(records, (metric.name, AxisScale::Log), of));
+        let of = |run: &Run| metric.of(run);
+        blocks.extend(spread(runs, (metric.name, AxisScale::Log), of));
     }
     for metric in metrics(&EXTENTS) {
-        let least = least(records, metric);
-        let of = |record: &Record| Some(metric.of(record)? / least.get(&place(record))?);
+        let least = least(runs, metric);
+        let of = |run: &Run| Some(metric.of(run)? / least.get(&run.place())?);
         let words = metric.name.trim_end_matches(" m");
         let quantity = format!("{words} over the least of its scenario");
-        blocks.extend(spread(records, (&quantity, AxisScale::Linear), of));
+        blocks.extend(spread(runs, (&quantity, AxisScale::Linear), of));
     }
     for metric in metrics(&PLAIN) {
-        let of = |record: &Record| metric.of(record);
-        blocks.extend(spread(records, (metric.name, AxisScale::Linear), of));
+        let of = |run: &Run| metric.of(run);
+        blocks.extend(spread(runs, (metric.name, AxisScale::Linear), of));
     }
     Section {
         heading: "How values are spread".to_owned(),
@@ -58,15 +57,15 @@ pub(super) fn spreads(records: &[Record]) -> Section {
 
 /// A box for each planner that has values; nothing where none has.
 fn spread(
-    records: &[Record],
+    runs: &[Run],
     (quantity, scale): (&str, AxisScale),
-    of: impl Fn(&Record) -> Option<f64>,
+    of: impl Fn(&Run) -> Option<f64>,
 ) -> Option<Block> {
     let group = |name: &&str| BoxGroup {
         name: (*name).to_owned(),
-        values: runs_of(records, name).into_iter().filter_map(&of).collect(),
+        values: runs_of(runs, name).into_iter().filter_map(&of).collect(),
     };
-    let names = planners(records);
+    let names = planners(runs);
     let groups = names.iter().map(group);
     let groups: Vec<BoxGroup> = groups.filter(|group| !group.values.is_empty()).collect();
     (!groups.is_empty()).then(|| {
@@ -84,9 +83,9 @@ fn spread(
 }
 
 /// By how many percent a planner is above another, pair by pair; nothing without pairs.
-pub(super) fn differences(pairs: &[[&Record; 2]]) -> Option<Block> {
+pub(super) fn differences(pairs: &[[&Run; 2]]) -> Option<Block> {
     let panel = |metric: &Metric| {
-        let difference = |[first, other]: &[&Record; 2]| {
+        let difference = |[first, other]: &[&Run; 2]| {
             let base = metric.of(first).filter(|v| *v > 0.0)?;
             Some(100.0 * (metric.of(other)? / base - 1.0))
         };
@@ -113,8 +112,8 @@ pub(super) fn differences(pairs: &[[&Record; 2]]) -> Option<Block> {
 }
 
 /// How the paths of solved runs get better; nothing where no history is known.
-pub(super) fn convergence(records: &[Record]) -> Option<Section> {
-    let figures = [by_time_and_steps(records), by_iteration(records)];
+pub(super) fn convergence(runs: &[Run]) -> Option<Section> {
+    let figures = [by_time_and_steps(runs), by_iteration(runs)];
     let figures = figures.into_iter().filter(is_drawn);
     let blocks: Vec<Block> = figures.map(Block::Trends).collect();
     (!blocks.is_empty()).then(|| Section {
@@ -129,14 +128,14 @@ fn is_drawn(plot: &Trends) -> bool {
 }
 
 /// Length of the best path by time and by steps, over the least of its scenario.
-fn by_time_and_steps(records: &[Record]) -> Trends {
+fn by_time_and_steps(runs: &[Run]) -> Trends {
     let least: BTreeMap<_, f64> = metrics(&["length m"])
-        .flat_map(|length| least(records, length))
+        .flat_map(|length| least(runs, length))
         .collect();
     let panel = |x: &str, of: fn(&Improvement) -> f64| {
-        let points = |record: &Record| {
-            let least_m = least.get(&place(record)).copied().unwrap_or(f64::NAN);
-            let points = record.history.improvements.iter();
+        let points = |run: &Run| {
+            let least_m = least.get(&run.place()).copied().unwrap_or(f64::NAN);
+            let points = run.history.improvements.iter();
             points
                 .map(|i| [of(i).max(f64::MIN_POSITIVE), i.length_m / least_m])
                 .collect()
@@ -144,7 +143,7 @@ fn by_time_and_steps(records: &[Record]) -> Trends {
         TrendPanel {
             x: x.to_owned(),
             x_scale: AxisScale::Log,
-            trends: trends(records, AxisScale::Log, points),
+            trends: trends(runs, AxisScale::Log, points),
         }
     };
     Trends {
@@ -163,9 +162,9 @@ fn by_time_and_steps(records: &[Record]) -> Trends {
 
 /// Least cost so far of colonies by iteration, over the last one of its run: what a colony costs
 /// its ways in is its own, so that other colonies' costs are in other units.
-fn by_iteration(records: &[Record]) -> Trends {
-    let points = |record: &Record| {
-        let costs = record.history.iterations.iter();
+fn by_iteration(runs: &[Run]) -> Trends {
+    let points = |run: &Run| {
+        let costs = run.history.iterations.iter();
         let costs: Vec<Option<f64>> = costs.map(|i| i["best_so_far_cost"].as_f64()).collect();
         let last = costs.iter().rev().find_map(|cost| *cost);
         let point = |(i, cost): (usize, &Option<f64>)| {
@@ -185,24 +184,20 @@ fn by_iteration(records: &[Record]) -> Trends {
         panels: vec![TrendPanel {
             x: "iteration".to_owned(),
             x_scale: AxisScale::Linear,
-            trends: trends(records, AxisScale::Linear, points),
+            trends: trends(runs, AxisScale::Linear, points),
         }],
     }
 }
 
 /// A trend for each planner, over its solved runs that have points.
-fn trends(
-    records: &[Record],
-    scale: AxisScale,
-    points: impl Fn(&Record) -> Vec<[f64; 2]>,
-) -> Vec<Trend> {
+fn trends(runs: &[Run], scale: AxisScale, points: impl Fn(&Run) -> Vec<[f64; 2]>) -> Vec<Trend> {
     let trend = |planner: &&str| {
-        let runs = runs_of(records, planner).into_iter();
-        let solved = runs.filter(|record| record.row.is_solved());
+        let runs = runs_of(runs, planner).into_iter();
+        let solved = runs.filter(|run| run.record.is_solved());
         let runs: Vec<Vec<[f64; 2]>> = solved.map(&points).filter(|run| !run.is_empty()).collect();
         Trend::of_runs(planner, &runs, scale)
     };
-    planners(records).iter().map(trend).collect()
+    planners(runs).iter().map(trend).collect()
 }
 
 #[cfg(test)]
@@ -210,9 +205,9 @@ mod tests {
     use super::*;
     use serde_json::json;
 
-    fn run(planner: &str, seed: u64, is_solved: bool) -> Record {
-        let mut record = Record::default();
-        record.row.fill(&json!({
+    fn run(planner: &str, seed: u64, is_solved: bool) -> Run {
+        let mut run = Run::default();
+        run.record.fill(&json!({
             "scenario": "s", "planner": planner, "seed": seed, "length_m": 10.0,
             "status": if is_solved { "found" } else { "no_path" }, "valid": is_solved,
         }));
@@ -222,15 +217,15 @@ mod tests {
                 steps: 1,
                 length_m,
             };
-            record.history.improvements = vec![improvement(0.1, 20.0), improvement(0.4, 10.0)];
+            run.history.improvements = vec![improvement(0.1, 20.0), improvement(0.4, 10.0)];
         }
-        record
+        run
     }
 
     #[test]
     fn a_planner_that_rarely_solves_has_a_trend_of_its_solved_runs() {
-        let records: Vec<Record> = (0..8).map(|seed| run("p", seed, seed == 3)).collect();
-        let section = convergence(&records).unwrap();
+        let runs: Vec<Run> = (0..8).map(|seed| run("p", seed, seed == 3)).collect();
+        let section = convergence(&runs).unwrap();
         let [Block::Trends(plot)] = &section.blocks[..] else {
             panic!("{section:?}");
         };
@@ -238,16 +233,16 @@ mod tests {
         assert_eq!(points[0][1..], [2.0; 3]);
         assert_eq!(points[points.len() - 1], [400.0, 1.0, 1.0, 1.0]);
         assert!(plot.caption.contains("solved runs alone"));
-        assert_eq!(convergence(&records[..3]), None);
+        assert_eq!(convergence(&runs[..3]), None);
     }
 
     #[test]
     fn a_colony_of_one_iteration_is_a_dot() {
-        let mut records = vec![run("ants", 0, true), run("ants", 1, true)];
-        for record in &mut records {
-            record.history.iterations = vec![json!({"best_so_far_cost": 6.0})];
+        let mut runs = vec![run("ants", 0, true), run("ants", 1, true)];
+        for run in &mut runs {
+            run.history.iterations = vec![json!({"best_so_far_cost": 6.0})];
         }
-        let Block::Trends(plot) = &convergence(&records).unwrap().blocks[1] else {
+        let Block::Trends(plot) = &convergence(&runs).unwrap().blocks[1] else {
             panic!("no picture by iteration");
         };
         assert_eq!(plot.panels[0].trends[0].points, [[1.0; 4]]);
@@ -256,11 +251,11 @@ mod tests {
 
     #[test]
     fn colonies_have_a_trend_by_iteration() {
-        let mut records = vec![run("ants", 0, true), run("astar", 0, true)];
+        let mut runs = vec![run("ants", 0, true), run("astar", 0, true)];
         let costs = [None, Some(6.0), Some(4.0)];
         let iterations = costs.map(|cost: Option<f64>| json!({"best_so_far_cost": cost}));
-        records[0].history.iterations = iterations.to_vec();
-        let section = convergence(&records).unwrap();
+        runs[0].history.iterations = iterations.to_vec();
+        let section = convergence(&runs).unwrap();
         let Block::Trends(plot) = &section.blocks[1] else {
             panic!("{section:?}");
         };

@@ -1,64 +1,71 @@
 //! Runs of stores as logs of OMPL, which Planner Arena opens.
 
-use super::report::{place, places};
+use super::report::places;
 use crate::analysis::compare::planners;
-use crate::campaign::Record;
 use crate::report::{OmplLog, OmplPlanner, OmplRun, Property, PropertyKind};
+use crate::run::{Run, RunRecord, number};
 
-/// A property of a run: OMPL's own name where it has one, its type, our column.
-const PROPERTIES: [(&str, PropertyKind, &str); 9] = [
-    ("solved", PropertyKind::Boolean, "valid"),
-    ("time", PropertyKind::Real, "query_s"),
-    (
-        "time to first solution",
-        PropertyKind::Real,
-        "first_feasible_s",
-    ),
-    ("memory", PropertyKind::Real, "peak_rss_bytes"),
-    ("solution length", PropertyKind::Real, "length_m"),
-    ("solution clearance", PropertyKind::Real, "min_clearance_m"),
-    ("solution cost", PropertyKind::Real, "cost_m"),
-    ("cusps", PropertyKind::Integer, "n_cusps"),
-    ("steps", PropertyKind::Integer, "steps"),
+/// A property of a run: OMPL's own name where it has one, its type, and its value.
+type RunProperty = (&'static str, PropertyKind, fn(&RunRecord) -> Option<f64>);
+
+const PROPERTIES: [RunProperty; 9] = [
+    ("solved", PropertyKind::Boolean, |run| {
+        Some(f64::from(u8::from(run.is_solved())))
+    }),
+    ("time", PropertyKind::Real, |run| run.query_s),
+    ("time to first solution", PropertyKind::Real, |run| {
+        run.first_feasible_s
+    }),
+    ("memory", PropertyKind::Real, |run| {
+        Some(number(run.peak_rss_bytes)? / BYTES_PER_MB)
+    }),
+    ("solution length", PropertyKind::Real, |run| run.length_m),
+    ("solution clearance", PropertyKind::Real, |run| {
+        run.min_clearance_m
+    }),
+    ("solution cost", PropertyKind::Real, |run| run.cost_m),
+    ("cusps", PropertyKind::Integer, |run| number(run.n_cusps)),
+    ("steps", PropertyKind::Integer, |run| number(run.steps)),
 ];
 
 /// OMPL counts memory in MB.
 const BYTES_PER_MB: f64 = 1e6;
 
 /// A log per scenario, vehicle and motion mode, in the order in which they ran.
-pub fn ompl_logs(records: &[Record]) -> Vec<OmplLog> {
-    let places = places(records).into_iter();
-    places.map(|at| log(records, at)).collect()
+pub fn ompl_logs(runs: &[Run]) -> Vec<OmplLog> {
+    let places = places(runs).into_iter();
+    places.map(|at| log(runs, at)).collect()
 }
 
-fn log(records: &[Record], at: [&str; 3]) -> OmplLog {
-    let here: Vec<&Record> = records.iter().filter(|r| place(r) == at).collect();
-    let known = |column: &str| here.first().map_or("", |r| r.get(column)).to_owned();
+fn log(runs: &[Run], at: [&str; 3]) -> OmplLog {
+    let here: Vec<&Run> = runs.iter().filter(|run| run.place() == at).collect();
+    let first = here.first().copied().cloned().unwrap_or_default();
+    let (record, origin) = (first.record, first.origin);
     let words: Vec<&str> = at.into_iter().filter(|word| !word.is_empty()).collect();
-    let property = |&(name, kind, _): &(&str, PropertyKind, &str)| Property::new(name, kind);
+    let property = |&(name, kind, _): &RunProperty| Property::new(name, kind);
     let planner = |name: &str| OmplPlanner {
         name: name.to_owned(),
         settings: Vec::new(),
         runs: here
             .iter()
-            .filter(|r| r.get("planner") == name)
-            .map(|r| run(r))
+            .filter(|run| run.record.planner == name)
+            .map(|run| ompl_run(run))
             .collect(),
     };
     OmplLog {
         name: words.join("-"),
-        version: known("version"),
-        host: known("machine"),
-        cpu: known("machine"),
+        version: origin.version,
+        host: origin.machine.clone(),
+        cpu: origin.machine,
         setup: format!(
             "{} of {}, map hash {}, vehicle hash {}",
             words.join(", "),
-            known("source"),
-            known("map_hash"),
-            known("vehicle_hash")
+            record.source,
+            origin.map_hash,
+            origin.vehicle_hash
         ),
         properties: PROPERTIES.iter().map(property).collect(),
-        planners: planners(records)
+        planners: planners(runs)
             .into_iter()
             .map(planner)
             .filter(|p| !p.runs.is_empty())
@@ -67,45 +74,37 @@ fn log(records: &[Record], at: [&str; 3]) -> OmplLog {
     }
 }
 
-fn run(record: &Record) -> OmplRun {
-    let value = |&(name, kind, column): &(&str, PropertyKind, &str)| match (name, kind) {
-        (_, PropertyKind::Boolean) => Some(f64::from(u8::from(record.row.is_solved()))),
-        ("memory", _) => Some(record.row.number(column)? / BYTES_PER_MB),
-        _ => record.row.number(column),
-    };
+fn ompl_run(run: &Run) -> OmplRun {
+    let values = PROPERTIES.iter().map(|(_, _, value)| value(&run.record));
+    let improvements = run.history.improvements.iter();
     OmplRun {
-        values: PROPERTIES.iter().map(value).collect(),
-        progress: record
-            .history
-            .improvements
-            .iter()
-            .map(|i| [i.at_s, i.length_m])
-            .collect(),
+        values: values.collect(),
+        progress: improvements.map(|i| [i.at_s, i.length_m]).collect(),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::campaign::Improvement;
+    use crate::run::Improvement;
     use serde_json::json;
 
     #[test]
     fn a_log_holds_the_runs_of_a_scenario() {
-        let record = |planner: &str, length_m: f64| {
-            let mut record = Record::default();
-            record.row.fill(&json!({
+        let run = |planner: &str, length_m: f64| {
+            let mut run = Run::default();
+            run.record.fill(&json!({
                 "scenario": "s", "planner": planner, "seed": 0, "status": "found", "valid": true,
                 "length_m": length_m, "query_s": 0.5, "peak_rss_bytes": 3e7,
             }));
-            record.history.improvements = vec![Improvement {
+            run.history.improvements = vec![Improvement {
                 at_s: 0.25,
                 steps: 7,
                 length_m,
             }];
-            record
+            run
         };
-        let logs = ompl_logs(&[record("a", 3.0), record("b", 4.0)]);
+        let logs = ompl_logs(&[run("a", 3.0), run("b", 4.0)]);
         assert_eq!(logs.len(), 1);
         let text = logs[0].to_text();
         assert!(

@@ -4,11 +4,12 @@
 
 use super::charts;
 use crate::analysis::compare::{
-    Duel, METHOD, METRICS, Metric, SUCCESS, Scope, not_run, paired, planners, runs_of, told_not_run,
+    Duel, METHOD, METRICS, Metric, SUCCESS, Scope, describe_not_run, not_run, paired, planners,
+    runs_of,
 };
 use crate::analysis::statistics::quartiles;
-use crate::campaign::Record;
 use crate::report::{Field, Report, Section, Table};
+use crate::run::Run;
 use anyhow::Result;
 use formicar::numeric::counted;
 
@@ -16,27 +17,27 @@ use formicar::numeric::counted;
 ///
 /// # Errors
 /// Scenarios of one name whose maps or vehicles are not the same.
-pub fn report(name: &str, records: &[Record]) -> Result<Report> {
-    let mut sections = vec![of_planners(records), charts::spreads(records)];
-    sections.extend(charts::convergence(records));
-    sections.extend(beside_the_first(records)?);
-    sections.push(of_scenarios(records));
+pub fn report(name: &str, runs: &[Run]) -> Result<Report> {
+    let mut sections = vec![of_planners(runs), charts::spreads(runs)];
+    sections.extend(charts::convergence(runs));
+    sections.extend(beside_the_first(runs)?);
+    sections.push(of_scenarios(runs));
     Ok(Report {
         name: name_of(name),
         title: name.to_owned(),
-        intro: intro(records),
+        intro: intro(runs),
         sections,
     })
 }
 
-/// What names of numbers begin with: the campaign's name where it has letters or digits for that.
+/// The prefix of names of numbers: the campaign's name if it has letters or digits.
 fn name_of(name: &str) -> String {
     let is_word = name.contains(|c: char| c.is_ascii_alphanumeric());
     if is_word { name } else { "campaign" }.to_owned()
 }
 
-fn intro(records: &[Record]) -> String {
-    let n_planners = planners(records).len();
+fn intro(runs: &[Run]) -> String {
+    let n_planners = planners(runs).len();
     let method = if n_planners > 1 {
         format!(" Planners beside the first: {METHOD}")
     } else {
@@ -46,35 +47,34 @@ fn intro(records: &[Record]) -> String {
         "{} of {} on {}. Solved: a path with the judge's \
          certificate was returned. Metrics are those of solved runs, as median and quartiles.\
          {method}",
-        counted(records.len(), "run"),
+        counted(runs.len(), "run"),
         counted(n_planners, "planner"),
-        counted(places(records).len(), "scenario")
+        counted(places(runs).len(), "scenario")
     )
 }
 
-/// Every planner: how often it solves, and each metric; of runs that did not take place how many
-/// and why.
-fn of_planners(records: &[Record]) -> Section {
-    let names = planners(records).into_iter();
-    let runs: Vec<(&str, Vec<&Record>)> = names.map(|n| (n, runs_of(records, n))).collect();
-    let told = runs
+/// Every planner with its rate of success, each metric, and the runs that did not take place.
+fn of_planners(runs: &[Run]) -> Section {
+    let names = planners(runs).into_iter();
+    let runs: Vec<(&str, Vec<&Run>)> = names.map(|n| (n, runs_of(runs, n))).collect();
+    let not_run_words = runs
         .iter()
-        .filter_map(|(planner, runs)| Some(format!("`{planner}` {}", told_not_run(runs)?)));
-    let told: Vec<String> = told.collect();
+        .filter_map(|(planner, runs)| Some(format!("`{planner}` {}", describe_not_run(runs)?)));
+    let not_run_words: Vec<String> = not_run_words.collect();
     let mut caption =
         "Solved runs with the 95 % interval of the rate (Wilson); median [quartiles].".to_owned();
     let mut heading = vec!["planner", "solved"];
-    if !told.is_empty() {
+    if !not_run_words.is_empty() {
         heading.push("not run");
         caption += " Runs that did not take place are in no rate and no test: ";
-        caption += &told.join("; ");
+        caption += &not_run_words.join("; ");
         caption += ".";
     }
     heading.extend(metrics().map(|metric| metric.name));
     let mut table = Table::new("planners", &heading).captioned(&caption);
     for (planner, runs) in &runs {
         let mut row = row_of(planner, runs, Field::Rate);
-        if !told.is_empty() {
+        if !not_run_words.is_empty() {
             let n = runs.iter().filter(|run| not_run(run).is_some()).count();
             row.insert(2, Field::Number(Some(n as f64), 0));
         }
@@ -84,14 +84,14 @@ fn of_planners(records: &[Record]) -> Section {
 }
 
 /// Every other planner beside the first, paired by scenario and seed.
-fn beside_the_first(records: &[Record]) -> Result<Vec<Section>> {
-    let names = planners(records);
+fn beside_the_first(runs: &[Run]) -> Result<Vec<Section>> {
+    let names = planners(runs);
     let Some((first, others)) = names.split_first() else {
         return Ok(Vec::new());
     };
-    let of_first = runs_of(records, first);
+    let of_first = runs_of(runs, first);
     let sections = others.iter().map(|other| {
-        let of_other = runs_of(records, other);
+        let of_other = runs_of(runs, other);
         let duel = Duel::new(&of_first, &of_other, Scope::All)?;
         let mut section = duel.section([first, other]);
         section
@@ -103,19 +103,22 @@ fn beside_the_first(records: &[Record]) -> Result<Vec<Section>> {
 }
 
 /// Every scenario with every planner.
-fn of_scenarios(records: &[Record]) -> Section {
+fn of_scenarios(runs: &[Run]) -> Section {
     let mut heading = vec!["scenario", "solved"];
     heading.extend(metrics().map(|metric| metric.name));
     let mut table = Table::new("scenarios", &heading).captioned(
         "Over the seeds: median [quartiles]; a dash where no run took place or none is solved.",
     );
-    let places = places(records);
+    let places = places(runs);
     let is_plain = |i: usize| places.iter().all(|p| p[i] == places[0][i]);
     let plain = [false, is_plain(1), is_plain(2)];
     for of_place in &places {
-        for planner in planners(records) {
-            let runs = runs_of(records, planner);
-            let runs: Vec<&Record> = runs.into_iter().filter(|r| place(r) == *of_place).collect();
+        for planner in planners(runs) {
+            let runs = runs_of(runs, planner);
+            let runs: Vec<&Run> = runs
+                .into_iter()
+                .filter(|r| r.place() == *of_place)
+                .collect();
             if !runs.is_empty() {
                 let words = of_place.iter().zip(plain).filter(|(_, is_plain)| !is_plain);
                 let mut words: Vec<&str> = words.map(|(word, _)| *word).collect();
@@ -127,17 +130,12 @@ fn of_scenarios(records: &[Record]) -> Section {
     Section::of_table("Scenarios", table)
 }
 
-/// Scenario, vehicle, motion mode: the last two are named where they are not all the same.
-pub(super) fn place(record: &Record) -> [&str; 3] {
-    ["scenario", "vehicle", "motion"].map(|column| record.get(column))
-}
-
 /// All places in the order in which they come.
-pub(super) fn places(records: &[Record]) -> Vec<[&str; 3]> {
+pub(super) fn places(runs: &[Run]) -> Vec<[&str; 3]> {
     let mut places = Vec::new();
-    for record in records {
-        if !places.contains(&place(record)) {
-            places.push(place(record));
+    for run in runs {
+        if !places.contains(&run.place()) {
+            places.push(run.place());
         }
     }
     places
@@ -148,8 +146,8 @@ fn metrics() -> impl Iterator<Item = &'static Metric> {
     METRICS.iter().filter(|metric| metric.name != SUCCESS)
 }
 
-fn row_of(name: &str, runs: &[&Record], solved: fn(usize, usize) -> Field) -> Vec<Field> {
-    let n_solved = runs.iter().filter(|run| run.row.is_solved()).count();
+fn row_of(name: &str, runs: &[&Run], solved: fn(usize, usize) -> Field) -> Vec<Field> {
+    let n_solved = runs.iter().filter(|run| run.record.is_solved()).count();
     let n_run = runs.iter().filter(|run| not_run(run).is_none()).count();
     let solved = match n_run {
         0 => Field::Number(None, 0),
@@ -167,30 +165,31 @@ fn row_of(name: &str, runs: &[&Record], solved: fn(usize, usize) -> Field) -> Ve
 mod tests {
     use super::*;
     use crate::report::markdown;
+    use crate::run::RunStatus;
     use serde_json::json;
 
-    fn record(scenario: &str, planner: &str, seed: u64, length_m: Option<f64>) -> Record {
-        let mut record = Record::default();
-        record.row.fill(&json!({
+    fn run(scenario: &str, planner: &str, seed: u64, length_m: Option<f64>) -> Run {
+        let mut run = Run::default();
+        run.record.fill(&json!({
             "scenario": scenario, "planner": planner, "seed": seed, "length_m": length_m,
             "status": if length_m.is_some() { "found" } else { "no_path" },
             "valid": length_m.map(|_| true),
         }));
-        record
+        run
     }
 
     #[test]
     fn planners_and_scenarios_have_a_row_each() {
-        let records: Vec<Record> = (0..3)
+        let runs: Vec<Run> = (0..3)
             .flat_map(|seed| {
                 let x = seed as f64;
                 [
-                    record("s", "one", seed, Some(10.0 + x)),
-                    record("s", "two", seed, (seed > 0).then_some(20.0 + x)),
+                    run("s", "one", seed, Some(10.0 + x)),
+                    run("s", "two", seed, (seed > 0).then_some(20.0 + x)),
                 ]
             })
             .collect();
-        let text = markdown(&report("a campaign", &records).unwrap());
+        let text = markdown(&report("a campaign", &runs).unwrap());
         assert!(
             text.contains("6 runs of 2 planners on 1 scenario."),
             "{text}"
@@ -214,16 +213,16 @@ mod tests {
 
     #[test]
     fn runs_that_did_not_take_place_are_told_and_in_no_rate() {
-        let mut records = vec![
-            record("s", "one", 0, Some(10.0)),
-            record("s", "two", 0, None),
-            record("t", "two", 0, Some(9.0)),
-            record("s", "three", 0, None),
+        let mut runs = vec![
+            run("s", "one", 0, Some(10.0)),
+            run("s", "two", 0, None),
+            run("t", "two", 0, Some(9.0)),
+            run("s", "three", 0, None),
         ];
         let refused = json!({"status": "invalid_request", "reason": "the vehicle is a point"});
-        records[1].row.fill(&refused);
-        records[3].row.fill(&json!({"status": "unavailable"}));
-        let text = markdown(&report("c", &records).unwrap());
+        runs[1].record.fill(&refused);
+        runs[3].record.status = RunStatus::Unavailable;
+        let text = markdown(&report("c", &runs).unwrap());
         for part in [
             "`two` 1 (invalid request: the vehicle is a point); `three` 1 (unavailable).",
             "| planner | solved | not run | first path ms |",
@@ -239,13 +238,10 @@ mod tests {
 
     #[test]
     fn vehicles_are_named_where_there_are_several() {
-        let mut records = vec![
-            record("s", "p", 0, Some(1.0)),
-            record("s", "p", 0, Some(2.0)),
-        ];
-        records[0].origin.set("vehicle", "own");
-        records[1].origin.set("vehicle", "sedan");
-        let text = markdown(&report("c", &records).unwrap());
+        let mut runs = vec![run("s", "p", 0, Some(1.0)), run("s", "p", 0, Some(2.0))];
+        runs[0].origin.vehicle = "own".to_owned();
+        runs[1].origin.vehicle = "sedan".to_owned();
+        let text = markdown(&report("c", &runs).unwrap());
         assert!(
             text.contains("| s own p |") && text.contains("| s sedan p |"),
             "{text}"

@@ -1,4 +1,4 @@
-//! Files of other planners: paths to be judged, or what their benchmark measured.
+//! Files of other planners: paths to be judged, or results of their benchmarks.
 
 mod nav_path;
 mod ompl_log;
@@ -13,15 +13,17 @@ pub struct Imported {
     pub planner: Option<String>,
     /// Its place among the runs of this planner, from 0 on.
     pub run: u64,
-    /// Whether the planner says that it has found a path.
+    /// True if the planner states that it has found a path.
     pub is_found: bool,
     /// Its path, where the file holds one.
     pub samples: Option<Samples>,
-    /// What it measured of itself, by column of `results.csv`.
-    pub measured: Vec<(&'static str, f64)>,
+    /// Time of the query by its own clock, seconds.
+    pub query_s: Option<f64>,
+    /// Length of the path by its own measure, meters.
+    pub length_m: Option<f64>,
 }
 
-/// What a file is.
+/// The format of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// Lines of x, y\[, heading\].
@@ -33,7 +35,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// What a text looks like.
+    /// The format that a text looks like.
     pub fn of(text: &str) -> Self {
         let text = text.trim_start();
         if text.starts_with(['{', '[']) {
@@ -46,7 +48,7 @@ impl Format {
     }
 }
 
-/// Whether a benchmark log begins so: `PROGRAM version X`, of whatever program, or without it.
+/// True if a benchmark log begins so: `PROGRAM version X`, of any program, or without it.
 fn is_log(first: &str) -> bool {
     let words: Vec<&str> = first.split_whitespace().collect();
     match words[..] {
@@ -59,7 +61,7 @@ fn is_log(first: &str) -> bool {
 /// The runs of a file.
 ///
 /// # Errors
-/// What is wrong with it, by line and field.
+/// The mistake in it, by line and field.
 pub fn read(text: &str) -> Result<Vec<Imported>> {
     let of_path = |samples| {
         vec![Imported {

@@ -103,16 +103,13 @@ fn imported(planner: &str, run: u64, values: &[(&str, f64)]) -> Imported {
     let is_length = |length_m: &f64| is_found && is_known(length_m) && *length_m > 0.0;
     let length_m = of("simplified solution length").filter(is_length);
     let length_m = length_m.or_else(|| of("solution length").filter(is_length));
-    let measured = [
-        query_s.filter(is_known).map(|value| ("query_s", value)),
-        length_m.map(|value| ("length_m", value)),
-    ];
     Imported {
         planner: Some(planner.to_owned()),
         run,
         is_found,
         samples: None,
-        measured: measured.into_iter().flatten().collect(),
+        query_s: query_s.filter(is_known),
+        length_m,
     }
 }
 
@@ -190,14 +187,17 @@ mod tests {
         let runs = read(LOG).unwrap();
         assert_eq!(runs.len(), 3);
         assert_eq!(runs[0].planner.as_deref(), Some("geometric_RRTConnect"));
-        assert_eq!(runs[0].measured, [("query_s", 0.25), ("length_m", 11.0)]);
+        assert_eq!(
+            (runs[0].query_s, runs[0].length_m),
+            (Some(0.25), Some(11.0))
+        );
         assert!(runs[0].is_found && runs[0].run == 0);
-        assert_eq!(runs[1].measured, [("query_s", 0.5)]);
+        assert_eq!((runs[1].query_s, runs[1].length_m), (Some(0.5), None));
         assert!(!runs[1].is_found && runs[1].run == 1);
         // An approximate solution does not reach the goal.
         assert_eq!(runs[2].planner.as_deref(), Some("geometric_RRTstar"));
         assert!(!runs[2].is_found);
-        assert_eq!(runs[2].measured, [("query_s", 0.75)]);
+        assert_eq!((runs[2].query_s, runs[2].length_m), (Some(0.75), None));
     }
 
     #[test]
@@ -224,7 +224,7 @@ mod tests {
         let runs = crate::rival::import::read(&log.to_text()).unwrap();
         assert_eq!(runs.len(), 2);
         assert_eq!(runs[0].planner.as_deref(), Some("hybrid-astar"));
-        assert_eq!(runs[0].measured, [("query_s", 0.5), ("length_m", 6.0)]);
+        assert_eq!((runs[0].query_s, runs[0].length_m), (Some(0.5), Some(6.0)));
         assert!(runs[0].is_found && !runs[1].is_found);
     }
 

@@ -1,50 +1,32 @@
-//! From the words on the command line to scenarios; everything wrong with them is found here,
-//! before anything is started.
+//! From words for scenarios to tasks. Everything wrong with them is found here, before anything is
+//! started.
 
-use super::place;
-use crate::scene;
-use crate::scene::ScenarioFile;
-use crate::scene::SceneArgs;
+use crate::run::{Place, Sources, Task};
 use anyhow::{Context, Result, anyhow, bail};
 use formicar::map::builtin::{self, BuiltinKind, BuiltinMap};
-use formicar::map::format::{MovingAiScenario, read_movingai_scenarios};
+use formicar::map::format::{
+    MovingAiScenario, ReadOptions, read_car_scenarios, read_map, read_movingai_scenarios,
+};
 use formicar::planner::PlannerName;
-use formicar_lab::campaign::{Place, Task};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// A word for scenarios, with what goes with it.
+/// A word for scenarios, with its options.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Source<'a> {
+pub struct TaskSource<'a> {
     /// A file, a built-in map or a set of them.
-    pub(super) word: &'a str,
+    pub word: &'a str,
     /// Lines of a .scen file that are taken; all where there is none.
-    pub(super) limit: Option<u32>,
+    pub limit: Option<u32>,
     /// Side of a cell, where the file leaves that open.
-    pub(super) resolution_m: Option<f64>,
+    pub resolution_m: Option<f64>,
 }
 
-/// All scenarios that the words name.
-pub(super) fn tasks(
-    words: &[String],
-    limit: Option<u32>,
-    planners: &[PlannerName],
-) -> Result<Vec<Task>> {
-    let mut tasks = Vec::new();
-    for word in words {
-        let source = Source {
-            word,
-            limit,
-            resolution_m: None,
-        };
-        tasks.extend(tasks_of(&source, planners)?);
-    }
-    check_names(&tasks)?;
-    Ok(tasks)
-}
-
-/// Refuses scenarios whose names are no names of files, or not their own.
-pub(super) fn check_names(tasks: &[Task]) -> Result<()> {
+/// Refuses scenarios whose names cannot name files, or are not unique.
+///
+/// # Errors
+/// The first such name.
+pub fn check_names(tasks: &[Task]) -> Result<()> {
     let mut names = BTreeSet::new();
     for task in tasks {
         let name = &task.scenario;
@@ -58,9 +40,16 @@ pub(super) fn check_names(tasks: &[Task]) -> Result<()> {
     Ok(())
 }
 
-/// The scenarios of one source.
-pub(super) fn tasks_of(source: &Source, planners: &[PlannerName]) -> Result<Vec<Task>> {
-    let Source { word, limit, .. } = *source;
+/// The scenarios of a source, for planners of ours.
+///
+/// # Errors
+/// A word that names none, and files that cannot be read.
+pub fn tasks_of(
+    source: &TaskSource,
+    planners: &[PlannerName],
+    sources: &dyn Sources,
+) -> Result<Vec<Task>> {
+    let TaskSource { word, limit, .. } = *source;
     let path = Path::new(word);
     let extension = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
     match extension.as_deref().and_then(std::ffi::OsStr::to_str) {
@@ -72,12 +61,12 @@ pub(super) fn tasks_of(source: &Source, planners: &[PlannerName]) -> Result<Vec<
             ),
             None => of_movingai(path, limit),
         },
-        Some("json" | "csv") => of_file(path, source.resolution_m),
+        Some("json" | "csv") => of_file(path, source.resolution_m, sources),
         _ => of_builtin(word),
     }
 }
 
-/// Whether a planner plans for cars alone.
+/// True if a planner plans for cars alone.
 fn drives(planner: PlannerName) -> bool {
     matches!(planner, PlannerName::Formicar | PlannerName::HybridAstar)
 }
@@ -110,27 +99,32 @@ fn of_builtin(word: &str) -> Result<Vec<Task>> {
     Ok(tasks.collect())
 }
 
-fn of_file(path: &Path, resolution_m: Option<f64>) -> Result<Vec<Task>> {
-    let (file, source) = (ScenarioFile::read(path)?, stem(path)?);
+fn of_file(path: &Path, resolution_m: Option<f64>, sources: &dyn Sources) -> Result<Vec<Task>> {
+    let name = stem(path)?;
     let task = |scenario: String, id: Option<String>| Task {
         scenario,
-        source: source.clone(),
+        source: name.clone(),
         place: Place::File {
             path: path.to_owned(),
             id,
             resolution_m,
         },
     };
-    let tasks: Vec<_> = match &file {
-        ScenarioFile::Cars(cars) => {
-            let ids = cars.rows().into_iter().map(|(id, _)| id);
-            ids.map(|id| task(id.clone(), Some(id))).collect()
-        }
-        ScenarioFile::Tpcap(case) => vec![task(case.row().0, None)],
+    let is_tpcap = path
+        .extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
+    let tasks: Vec<Task> = if is_tpcap {
+        vec![task(name.clone(), None)]
+    } else {
+        let ids = read_car_scenarios(path)?.into_iter().map(|s| s.id);
+        ids.map(|id| task(id.clone(), Some(id))).collect()
     };
+    if tasks.is_empty() {
+        bail!("{}: it holds no scenarios", path.display());
+    }
     for task in &tasks {
         // A map that cannot be read is found now rather than once per run.
-        scene::find(&place::ground_args(task, None))?;
+        sources.load(task, None)?;
     }
     Ok(tasks)
 }
@@ -148,11 +142,8 @@ fn of_movingai(path: &Path, limit: Option<u32>) -> Result<Vec<Task>> {
         path.with_extension("map")
     };
     let source = stem(&map)?;
-    let grid = scene::find(&SceneArgs {
-        map: Some(map.display().to_string()),
-        ..SceneArgs::default()
-    })?;
-    let (n_cols, n_rows) = (grid.map.frame().n_cols(), grid.map.frame().n_rows());
+    let grid = read_map(&map, &ReadOptions::default())?;
+    let (n_cols, n_rows) = (grid.frame().n_cols(), grid.frame().n_rows());
     if let Some(line) = lines
         .iter()
         .find(|line| (line.n_cols, line.n_rows) != (n_cols, n_rows))
@@ -183,7 +174,7 @@ fn task_of_line(source: &str, map: &Path, i: usize, line: &MovingAiScenario) -> 
 }
 
 /// At most `limit` of `n` indices, evenly spread from the first to the last.
-pub(super) fn spread(n: usize, limit: Option<u32>) -> impl Iterator<Item = usize> {
+pub fn spread(n: usize, limit: Option<u32>) -> impl Iterator<Item = usize> {
     let n_taken = limit.map_or(n, |limit| n.min(limit as usize));
     (0..n_taken).map(move |i| i * n.saturating_sub(1) / n_taken.saturating_sub(1).max(1))
 }
@@ -197,6 +188,7 @@ fn stem(path: &Path) -> Result<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::BuiltinSources;
 
     #[test]
     fn spreads_from_first_to_last() {
@@ -208,11 +200,20 @@ mod tests {
         assert_eq!(taken(1, Some(1)), [0]);
     }
 
+    fn named(word: &str) -> Result<Vec<Task>> {
+        let source = TaskSource {
+            word,
+            limit: None,
+            resolution_m: None,
+        };
+        tasks_of(&source, &[PlannerName::Astar], &BuiltinSources)
+    }
+
     #[test]
     fn names_sets_of_maps() {
         let names = |word: &str| {
-            let tasks = tasks(&[word.to_owned()], None, &[PlannerName::Astar]).unwrap();
-            tasks.into_iter().map(|t| t.scenario).collect::<Vec<_>>()
+            let tasks = named(word).unwrap().into_iter();
+            tasks.map(|t| t.scenario).collect::<Vec<_>>()
         };
         assert_eq!(names("narrow-junction").len(), 2);
         assert!(names("narrow").contains(&"slalom-poles-slalom".to_owned()));
@@ -221,8 +222,8 @@ mod tests {
 
     #[test]
     fn refuses_a_scenario_named_twice() {
-        let words = ["narrow".to_owned(), "narrow-junction".to_owned()];
-        let error = tasks(&words, None, &[PlannerName::Astar]).unwrap_err();
+        let tasks = ["narrow", "narrow-junction"].map(|word| named(word).unwrap());
+        let error = check_names(&tasks.concat()).unwrap_err();
         assert!(error.to_string().contains("narrow-junction-quarter-turn"));
     }
 }

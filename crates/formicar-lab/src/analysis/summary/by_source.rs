@@ -1,6 +1,6 @@
-//! What the rows come to, per source of scenarios and planner.
+//! Totals per source of scenarios and planner.
 
-use formicar_lab::campaign::Row;
+use crate::run::{RunRecord, RunStatus, number};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -8,9 +8,9 @@ use std::io::{self, Write};
 /// Relative difference within which a length is the optimum: files print six digits.
 const OPTIMUM_TOLERANCE: f64 = 1e-4;
 
-/// One line per source and planner.
+/// Totals of runs, a line per source and planner.
 #[derive(Debug)]
-pub(super) struct Summary(Vec<Group>);
+pub struct Summary(Vec<Group>);
 
 /// The rows of one planner on one source of scenarios.
 #[derive(Debug)]
@@ -35,17 +35,18 @@ struct Group {
 struct Spread(Option<[f64; 3]>);
 
 impl Summary {
-    pub(super) fn new(rows: &[Row]) -> Self {
-        let mut groups: BTreeMap<_, Vec<&Row>> = BTreeMap::new();
-        for row in rows {
-            let key = (row.get("source"), row.get("planner"));
-            groups.entry(key).or_default().push(row);
+    /// Groups records.
+    pub fn new(records: &[RunRecord]) -> Self {
+        let mut groups: BTreeMap<_, Vec<&RunRecord>> = BTreeMap::new();
+        for record in records {
+            let key = (record.source.as_str(), record.planner.as_str());
+            groups.entry(key).or_default().push(record);
         }
-        Self(groups.values().map(|rows| Group::new(rows)).collect())
+        Self(groups.values().map(|records| Group::new(records)).collect())
     }
 
     /// As a page.
-    pub(super) fn markdown(&self) -> String {
+    pub fn markdown(&self) -> String {
         let mut text = "# Summary\n\n\
             Per source of scenarios and planner. Solved: a path was returned; certified: it carries \
             the judge's certificate. Times in milliseconds as median / 90th percentile / largest, \
@@ -78,8 +79,11 @@ impl Summary {
         text
     }
 
-    /// As lines for a terminal.
-    pub(super) fn write_plain(&self, out: &mut impl Write) -> io::Result<()> {
+    /// Writes lines for a terminal.
+    ///
+    /// # Errors
+    /// A writer that fails.
+    pub fn write_plain(&self, out: &mut impl Write) -> io::Result<()> {
         let width =
             |name: fn(&Group) -> &str| self.0.iter().map(|g| name(g).len()).max().unwrap_or(0);
         let (of_source, of_planner) = (width(|g| &g.source), width(|g| &g.planner));
@@ -113,41 +117,37 @@ impl Summary {
 
 impl Group {
     /// The rows are of one group, and at least one.
-    fn new(rows: &[&Row]) -> Self {
-        let count = |column: &str, value: &str| {
-            let is_it = |row: &&&Row| row.get(column) == value;
-            rows.iter().filter(is_it).count()
+    fn new(records: &[&RunRecord]) -> Self {
+        let count = |is_it: fn(&RunRecord) -> bool| {
+            let all = records.iter();
+            all.filter(|record| is_it(record)).count()
         };
-        let numbers = |column: &str| -> Vec<f64> {
-            let mut numbers: Vec<f64> = rows.iter().filter_map(|r| r.number(column)).collect();
+        let numbers = |of: fn(&RunRecord) -> Option<f64>| -> Vec<f64> {
+            let mut numbers: Vec<f64> = records.iter().filter_map(|record| of(record)).collect();
             numbers.sort_by(f64::total_cmp);
             numbers
         };
-        let n_with_optimum = numbers("optimal_length_cells").len();
-        let n_optimal = rows.iter().filter(|row| is_optimal(row)).count();
+        let n_with_optimum = count(|record| record.optimal_length_cells.is_some());
+        let n_optimal = count(is_optimal);
         Self {
-            source: rows[0].get("source").to_owned(),
-            planner: rows[0].get("planner").to_owned(),
-            n_runs: rows.len(),
-            n_solved: count("status", "found"),
-            n_certified: count("valid", "true"),
-            n_crashed: count("status", "crashed"),
-            first_feasible_s: Spread::new(&numbers("first_feasible_s")),
-            query_s: Spread::new(&numbers("query_s")),
-            median_length_m: median(&numbers("length_m")),
-            median_clearance_m: median(&numbers("min_clearance_m")),
-            median_cusps: median(&numbers("n_cusps")),
+            source: records[0].source.clone(),
+            planner: records[0].planner.clone(),
+            n_runs: records.len(),
+            n_solved: count(|record| record.status == RunStatus::Found),
+            n_certified: count(|record| record.valid == Some(true)),
+            n_crashed: count(|record| record.status == RunStatus::Crashed),
+            first_feasible_s: Spread::new(&numbers(|record| record.first_feasible_s)),
+            query_s: Spread::new(&numbers(|record| record.query_s)),
+            median_length_m: median(&numbers(|record| record.length_m)),
+            median_clearance_m: median(&numbers(|record| record.min_clearance_m)),
+            median_cusps: median(&numbers(|record| number(record.n_cusps))),
             optimum: (n_with_optimum > 0).then_some([n_with_optimum, n_optimal]),
         }
     }
 }
 
-fn is_optimal(row: &Row) -> bool {
-    let lengths = (
-        row.number("length_cells"),
-        row.number("optimal_length_cells"),
-    );
-    let (Some(length), Some(optimum)) = lengths else {
+fn is_optimal(record: &RunRecord) -> bool {
+    let (Some(length), Some(optimum)) = (record.length_cells, record.optimal_length_cells) else {
         return false;
     };
     (length - optimum).abs() <= OPTIMUM_TOLERANCE * optimum.max(1.0)

@@ -1,12 +1,12 @@
-//! One run: scenario, vehicle, planner, seed and limits, as the process that does it is told.
+//! The job of one run: scenario, vehicle, planner, seed and limits.
 
 use formicar::planner::PlannerName;
 use formicar::scenario::MotionMode;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Scenario, planner and seed: what tells the runs of one table apart.
-pub type RowKey = (String, String, u64);
+/// Scenario, planner and seed, which tell the runs of one table apart.
+pub type RunKey = (String, String, u64);
 
 /// A scenario to be planned.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -15,11 +15,32 @@ pub struct Task {
     pub scenario: String,
     /// The file or built-in map that it comes from.
     pub source: String,
-    /// Where it is found.
+    /// The place of map, start and goal.
     pub place: Place,
 }
 
-/// Where start, goal and map are found.
+impl Task {
+    /// The published optimum, cells; known of `MovingAI` scenarios.
+    pub fn optimal_length_cells(&self) -> Option<f64> {
+        match self.place {
+            Place::Cells {
+                optimal_length_cells,
+                ..
+            } => Some(optimal_length_cells),
+            _ => None,
+        }
+    }
+
+    /// The file of car scenarios or of a TPCAP case that holds it.
+    pub fn file(&self) -> Option<&std::path::Path> {
+        match &self.place {
+            Place::File { path, .. } => Some(path),
+            Place::Builtin { .. } | Place::Cells { .. } => None,
+        }
+    }
+}
+
+/// The place of a scenario.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Place {
@@ -27,9 +48,9 @@ pub enum Place {
     File {
         /// The file: car scenarios (.json) or a TPCAP case (.csv).
         path: PathBuf,
-        /// Which of its scenarios; none where it is one.
+        /// One of its scenarios; none where it holds but one.
         id: Option<String>,
-        /// Side of a cell, where the file leaves that open, metres.
+        /// Side of a cell, where the file leaves that open, meters.
         resolution_m: Option<f64>,
     },
     /// In the library.
@@ -74,20 +95,20 @@ pub struct Contender {
 pub struct RivalCommand {
     /// The program and its arguments; `formicar` is the program that runs the campaign.
     pub words: Vec<String>,
-    /// Where it runs: the folder of the campaign file.
+    /// The folder in which it runs: that of the campaign file.
     pub folder: PathBuf,
 }
 
-/// How long a run may take, and how it is asked.
+/// The limits of a run, and how it is asked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Limits {
-    /// Which gears may be used.
+    /// The gears that may be used.
     pub motion: Option<MotionMode>,
     /// Search steps after which a run gives up.
     pub budget_steps: Option<u64>,
     /// Time after which a run gives up, milliseconds.
     pub deadline_ms: Option<f64>,
-    /// Whether the first asking of a planner counts rather than the second.
+    /// True where the first query of a planner counts rather than the second.
     pub is_cold: bool,
 }
 
@@ -113,13 +134,13 @@ pub struct Job {
     pub seed: u64,
     /// The limits.
     pub limits: Limits,
-    /// Where the answer is kept.
+    /// The file that takes the answer.
     pub answer: Option<PathBuf>,
 }
 
 impl Job {
-    /// What tells it apart in a table of one vehicle and one motion mode.
-    pub fn row_key(&self) -> RowKey {
+    /// The key that tells it apart in a table of one vehicle and one motion mode.
+    pub fn key(&self) -> RunKey {
         let (task, contender) = (&self.task, &self.contender);
         (task.scenario.clone(), contender.name.clone(), self.seed)
     }

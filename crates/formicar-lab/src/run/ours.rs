@@ -1,0 +1,244 @@
+//! A run of one of our planners in this process.
+
+use super::evaluate::Evaluation;
+use super::job::Job;
+use super::measure::{Measured, measure};
+use super::record::{History, Run, RunRecord, one_line};
+use super::scenario::{LoadedScenario, Sources};
+use super::status::RunStatus;
+use super::usage;
+use anyhow::{Context, Result};
+use formicar::map::Cell;
+use formicar::map::format::write_atomically;
+use formicar::numeric::Seed;
+use formicar::path::{CurvePath, GridPath};
+use formicar::planner::{
+    AnswerContext, ColonyRecord, Outcome, PathDocument, Plan, PlanError, Planner, PlannerConfig,
+    RequestDocument, Stages, Timing,
+};
+use std::f64::consts::SQRT_2;
+use std::path::Path;
+use std::time::Instant;
+
+type Answer = Measured<Result<Outcome, PlanError>>;
+
+/// The beginning of a run, by clock and processor.
+#[derive(Clone, Copy, Debug)]
+pub struct Begun {
+    at: Instant,
+    cpu_s: Option<f64>,
+}
+
+impl Begun {
+    /// The beginning of a run with its process, which it has for itself.
+    pub fn with_process() -> Self {
+        Self {
+            at: Instant::now(),
+            cpu_s: Some(0.0),
+        }
+    }
+
+    /// The beginning of a run now, in a process that has done other work before.
+    pub fn now() -> Self {
+        Self {
+            at: Instant::now(),
+            cpu_s: usage::cpu_s(),
+        }
+    }
+}
+
+/// Carries out a run of a planner of ours.
+pub(super) fn run(job: &Job, sources: &dyn Sources, begun: Begun) -> Result<Run> {
+    let config = sources.config(&job.contender)?;
+    let scenario = sources.load(&job.task, job.vehicle_source())?;
+    let setup = Instant::now();
+    let planner = Planner::new(&scenario.map, scenario.vehicle.clone(), config.clone())?;
+    let run = OurRun {
+        job,
+        request: scenario.request(job)?,
+        map_setup_s: setup.elapsed().as_secs_f64(),
+        planner,
+        config,
+        scenario,
+        begun,
+    };
+    run.carry_out()
+}
+
+struct OurRun<'a> {
+    job: &'a Job,
+    request: RequestDocument,
+    map_setup_s: f64,
+    planner: Planner,
+    config: PlannerConfig,
+    scenario: LoadedScenario,
+    begun: Begun,
+}
+
+/// The answer that counts, with what was used for it.
+struct Counted {
+    answer: Answer,
+    total_s: f64,
+    cpu_s: Option<f64>,
+    peak_rss_bytes: Option<u64>,
+    cold_first_s: Option<f64>,
+    /// True if the cold and the warm planner return the same path.
+    is_same: bool,
+}
+
+impl OurRun<'_> {
+    fn carry_out(mut self) -> Result<Run> {
+        let counted = self.ask();
+        let answer = &counted.answer;
+        if let Some(path) = &self.job.answer {
+            self.write_answer(path, &counted)?;
+        }
+        let mut record = RunRecord::of_job(self.job);
+        record.map_setup_s = Some(self.map_setup_s);
+        record.first_feasible_s = answer.first_feasible_s();
+        record.query_s = Some(answer.query_s);
+        record.total_s = Some(counted.total_s);
+        record.cpu_s = counted.cpu_s;
+        record.peak_rss_bytes = counted.peak_rss_bytes;
+        record.cold_first_s = counted.cold_first_s;
+        self.fill(&mut record, answer);
+        if !counted.is_same && self.request.deadline_ms.is_none() {
+            record.valid = Some(false);
+            "asked again, the warm planner answers otherwise".clone_into(&mut record.reason);
+        }
+        let stages = answer.answer.as_ref().ok().map(Outcome::stages);
+        Ok(Run {
+            record,
+            history: history(answer, stages),
+            path: found(answer).map(|plan| self.stored(&plan.path)),
+            ..Run::default()
+        })
+    }
+
+    /// Asks as often as the job says.
+    fn ask(&mut self) -> Counted {
+        let (cold, cold_total_s) = self.ask_once();
+        let warm = (!self.job.limits.is_cold).then(|| self.ask_once());
+        // Before anything else uses up more. The time of a query that warms up does not count.
+        let cpu_s = usage::cpu_s().zip(self.begun.cpu_s);
+        let warm_up_s = warm.as_ref().and(cold.cpu_s).unwrap_or(0.0);
+        let (peak_rss_bytes, cold_first_s) = (usage::peak_rss_bytes(), cold.first_feasible_s());
+        let is_same = match &warm {
+            Some((warm, _)) => path_of(warm) == path_of(&cold),
+            None => true,
+        };
+        let (answer, total_s) = warm.unwrap_or((cold, cold_total_s));
+        Counted {
+            answer,
+            total_s,
+            cpu_s: cpu_s.map(|(now_s, begun_s)| now_s - begun_s - warm_up_s),
+            peak_rss_bytes,
+            cold_first_s,
+            is_same,
+        }
+    }
+
+    /// An answer, and the time from the beginning of the run to its end.
+    fn ask_once(&mut self) -> (Answer, f64) {
+        let (document, planner) = (&self.request, &mut self.planner);
+        let answer = measure(&mut (), |observer| {
+            let request = document.onto(&RequestDocument::default())?;
+            planner.plan(&request, Seed(self.job.seed), observer)
+        });
+        (answer, self.begun.at.elapsed().as_secs_f64())
+    }
+
+    fn write_answer(&self, path: &Path, counted: &Counted) -> Result<()> {
+        let context = AnswerContext {
+            obstacles: self.planner.obstacles(),
+            map: self.scenario.map_record.clone(),
+            vehicle: self.planner.vehicle(),
+            vehicle_name: &self.scenario.vehicle_name,
+            config: &self.config,
+        };
+        let measured = &counted.answer;
+        let timing = Timing {
+            map_setup_s: self.map_setup_s,
+            first_feasible_s: measured.first_feasible_s(),
+            query_s: measured.query_s,
+            total_s: counted.total_s,
+        };
+        let request = self.request.onto(&RequestDocument::default()).ok();
+        let seed = Seed(self.job.seed);
+        let answer = context.answer(request.as_ref(), seed, &measured.answer, timing);
+        let mut json = serde_json::to_vec(&answer)?;
+        json.push(b'\n');
+        write_atomically(path, &json)
+            .with_context(|| format!("{} cannot be written", path.display()))
+    }
+
+    /// The path as it is kept: its segments say all of it, unless it stands still at a pose.
+    fn stored(&self, path: &CurvePath) -> PathDocument {
+        let mut poses = Vec::new();
+        if path.segments().is_empty() {
+            let (obstacles, vehicle) = (self.planner.obstacles(), self.planner.vehicle());
+            poses = PathDocument::new(path, obstacles, vehicle).poses;
+            poses.truncate(1);
+        }
+        PathDocument {
+            poses,
+            segments: path.segments().iter().map(Into::into).collect(),
+        }
+    }
+
+    /// Notes the ending and, of a path, everything that is measured of it.
+    fn fill(&self, record: &mut RunRecord, answer: &Answer) {
+        match &answer.answer {
+            Ok(outcome) => {
+                record.status = outcome.status().into();
+                record.steps = Some(outcome.n_steps());
+                record.valid = outcome.judged().map(|(_, report)| report.valid);
+                if let Outcome::NotFound(failure) = outcome {
+                    record.reason = one_line(&failure.reason);
+                }
+            }
+            Err(error) => record.fail(RunStatus::InvalidRequest, &error.to_string()),
+        }
+        let Ok(request) = self.request.onto(&RequestDocument::default()) else {
+            return;
+        };
+        let evaluation = Evaluation {
+            obstacles: self.planner.obstacles(),
+            vehicle: self.planner.vehicle(),
+        };
+        evaluation.ends(record, [request.start, request.goal]);
+        if let Some(plan) = found(answer) {
+            evaluation.plan(record, &request, plan);
+            record.length_cells = plan.stages.grid_path.as_ref().map(length_cells);
+            let first = answer.improvements.first();
+            record.first_length_m = first.map(|first| first.length_m);
+            record.first_steps = first.map(|first| first.steps);
+            record.note_known_paths(&answer.improvements);
+        }
+    }
+}
+
+fn found(answer: &Answer) -> Option<&Plan> {
+    match &answer.answer {
+        Ok(Outcome::Found(plan)) => Some(plan),
+        _ => None,
+    }
+}
+
+fn path_of(answer: &Answer) -> Option<&CurvePath> {
+    found(answer).map(|plan| &plan.path)
+}
+
+fn history(answer: &Answer, stages: Option<&Stages>) -> History {
+    let colony = stages.and_then(ColonyRecord::new);
+    let iterations = colony.map_or(Vec::new(), |colony| colony.iterations);
+    History::new(answer.improvements.clone(), &iterations)
+}
+
+/// Length between cell centers: straight steps count 1, diagonal ones the square root of 2.
+pub(crate) fn length_cells(path: &GridPath) -> f64 {
+    let is_diagonal = |pair: &&[Cell]| pair[0].col != pair[1].col && pair[0].row != pair[1].row;
+    let n_steps = path.cells.len().saturating_sub(1);
+    let n_diagonal = path.cells.windows(2).filter(is_diagonal).count();
+    (n_steps - n_diagonal) as f64 + SQRT_2 * n_diagonal as f64
+}
