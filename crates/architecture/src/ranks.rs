@@ -51,10 +51,10 @@ pub const CLI: &[&str] = &[
 
 /// The lab.
 pub const LAB: &[&str] = &[
-    "run",
     "analysis::statistics",
     "report",
     "rival",
+    "run",
     "campaign",
     "papers",
     "tuning",

@@ -75,15 +75,6 @@ fn system(os_release: &str) -> String {
     parts.join(", ")
 }
 
-/// How the program was built.
-pub(crate) fn profile() -> &'static str {
-    if cfg!(debug_assertions) {
-        "debug"
-    } else {
-        "release"
-    }
-}
-
 fn build() -> &'static str {
     if cfg!(debug_assertions) {
         "debug: times mean nothing"

@@ -11,6 +11,7 @@ use crate::run::{Job, Run, RunKey, RunRecord};
 use anyhow::{Context, Result, bail};
 use rusqlite::types::Value;
 use rusqlite::{Connection, params_from_iter};
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -213,9 +214,9 @@ impl Store {
             transaction.execute("INSERT OR REPLACE INTO config VALUES (?, ?, ?)", values)?;
         }
         for run in &campaign.runs {
-            if !known.contains_key(&run.job.key()) {
+            if let Entry::Vacant(unknown) = known.entry(run.job.key()) {
                 plan(&transaction, next, run)?;
-                known.insert(run.job.key(), next);
+                unknown.insert(next);
                 next += 1;
             }
         }
@@ -361,7 +362,7 @@ fn tables() -> String {
     )
 }
 
-/// A value of a record as SQLite keeps it; an empty text is none.
+/// A value of a record as `SQLite` keeps it; an empty text is none.
 fn value(value: serde_json::Value) -> Value {
     match value {
         serde_json::Value::Null => Value::Null,

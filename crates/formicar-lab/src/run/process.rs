@@ -119,22 +119,22 @@ mod tests {
         assert_eq!(record.key(), job().key());
         for (status, stdout) in [
             (0, "half a ro"),
-            (256, &*printed("a", json!(2.5))),
-            (0, &*printed("of another", json!(2.5))),
-            (0, &*printed("a", json!("far"))),
+            (256, &*printed("a", &json!(2.5))),
+            (0, &*printed("of another", &json!(2.5))),
+            (0, &*printed("a", &json!("far"))),
         ] {
             let record = run_of(&job(), &output(status, stdout)).record;
             assert_eq!(record.status, RunStatus::Crashed, "{stdout}");
         }
         // Builds before this one print all values as text.
         for length in [json!(2.5), json!("2.5")] {
-            let record = run_of(&job(), &output(0, &printed("a", length))).record;
+            let record = run_of(&job(), &output(0, &printed("a", &length))).record;
             assert_eq!(record.status, RunStatus::Found);
             assert_eq!((record.source.as_str(), record.length_m), ("b", Some(2.5)));
         }
     }
 
-    fn printed(scenario: &str, length_m: Value) -> String {
+    fn printed(scenario: &str, length_m: &Value) -> String {
         let row = json!({
             "scenario": scenario, "planner": "astar", "seed": "3", "status": "found",
             "length_m": length_m,

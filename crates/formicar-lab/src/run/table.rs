@@ -110,12 +110,11 @@ pub(crate) fn read_torn_csv(text: &str) -> Result<Vec<RunRecord>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::RunStatus;
+    use crate::run::{Origin, RunStatus};
 
     #[test]
     fn a_table_read_back_is_the_same() {
-        let mut run = Run::default();
-        run.record = RunRecord {
+        let record = RunRecord {
             scenario: "a, b".to_owned(),
             seed: 3,
             status: RunStatus::Found,
@@ -125,9 +124,17 @@ mod tests {
             n_cusps: Some(3),
             ..RunRecord::default()
         };
-        run.origin.machine = "one".to_owned();
-        run.origin.deadline_ms = Some(20.0);
-        let text = to_csv(&[run.clone()]).unwrap();
+        let origin = Origin {
+            machine: "one".to_owned(),
+            deadline_ms: Some(20.0),
+            ..Origin::default()
+        };
+        let run = Run {
+            record,
+            origin,
+            ..Run::default()
+        };
+        let text = to_csv(std::slice::from_ref(&run)).unwrap();
         assert!(
             text.contains("\"a, b\",,3,found,true,,,,,,2.0,1e-7,3,"),
             "{text}"
@@ -168,7 +175,7 @@ mod tests {
         };
         let text = records_csv([&record]).unwrap();
         let torn = format!("{text}b,astar,0,fou");
-        assert_eq!(read_torn_csv(&torn).unwrap(), [record.clone()]);
+        assert_eq!(read_torn_csv(&torn).unwrap(), std::slice::from_ref(&record));
         let twice = format!("{text}{}", record_line(&record).unwrap());
         let error = read_torn_csv(&twice).unwrap_err().to_string();
         assert!(error.contains("line 3: a second row of one run"), "{error}");

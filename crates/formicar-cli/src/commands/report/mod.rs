@@ -142,7 +142,7 @@ fn facts(stores: &[(String, Stored)]) -> Vec<Fact> {
         let n_done = store.runs.len();
         let about = format!("`{file}`: {n_done} of {} runs are done", store.n_planned);
         facts.push(Fact::new("Store", about));
-        let origins: [(&str, fn(&Origin) -> String); 5] = [
+        let origins: [(&str, Of<String>); 5] = [
             ("Machine", |origin| origin.machine.clone()),
             ("formicar", |origin| origin.version.clone()),
             ("Build", |origin| origin.build.clone()),
@@ -168,6 +168,12 @@ fn facts(stores: &[(String, Stored)]) -> Vec<Fact> {
     facts
 }
 
+/// A value of an origin.
+type Of<T> = fn(&Origin) -> T;
+
+/// A hash of an origin.
+type HashOf = fn(&Origin) -> &str;
+
 fn number(value: Option<impl Serialize>) -> String {
     value.map_or_else(String::new, |value| serde_json::json!(value).to_string())
 }
@@ -175,7 +181,7 @@ fn number(value: Option<impl Serialize>) -> String {
 /// The maps and vehicles of all scenarios, by hash.
 fn hashes(runs: &[Run]) -> Vec<Fact> {
     let mut facts = Vec::new();
-    let of_origins: [(&str, fn(&Origin) -> &str); 2] = [
+    let of_origins: [(&str, HashOf); 2] = [
         ("Map", |origin| &origin.map_hash),
         ("Vehicle", |origin| &origin.vehicle_hash),
     ];
