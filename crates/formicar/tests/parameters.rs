@@ -192,7 +192,7 @@ impl Table {
         }
         let (section, planner) = mark.rsplit_once(" of ").expect("a section of a planner");
         let document = document(planner.parse().expect("a planner"));
-        let is_slot = |p: &Parameter| !p.rules.is_empty() || p.key.ends_with(".rule");
+        let is_slot = |p: &Parameter| !p.rules.is_empty() || p.is_slot();
         match section.strip_suffix(" outside of rules") {
             Some(section) => rows(section, &|p| {
                 let value = p.value_in(&document).filter(|_| !is_slot(p))?;

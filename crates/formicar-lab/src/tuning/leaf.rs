@@ -60,7 +60,7 @@ pub(super) fn leaves(base: &Value) -> Vec<Leaf> {
         is_leaf.then_some(Leaf { parameter, value })
     };
     parameters
-        .filter(|parameter| parameter.key != "planner" && !parameter.key.ends_with(".rule"))
+        .filter(|parameter| parameter.key != "planner" && !parameter.is_slot())
         .filter_map(leaf)
         .collect()
 }

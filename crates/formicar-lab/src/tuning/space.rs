@@ -217,7 +217,7 @@ fn known(name: &str, leaves: &[Leaf]) -> Result<()> {
     if leaves.iter().any(|leaf| leaf.key() == name) {
         return Ok(());
     }
-    let keys: Vec<&str> = leaves.iter().map(|leaf| leaf.key()).collect();
+    let keys: Vec<&str> = leaves.iter().map(Leaf::key).collect();
     bail!(
         "the planner has no parameter {name:?} that can be tuned; there are {}",
         keys.join(", ")
@@ -262,7 +262,7 @@ mod tests {
             let numbers = leaves.iter().filter(|leaf| leaf.value.is_number());
             let wrong: Vec<&str> = numbers
                 .filter(|leaf| !beyond(leaf).all(|value| is_refused(&base, leaf.key(), value)))
-                .map(|leaf| leaf.key())
+                .map(Leaf::key)
                 .collect();
             assert!(wrong.is_empty(), "taken outside of their range: {wrong:?}");
         }

@@ -56,6 +56,11 @@ impl Parameter {
             .then(|| at(document, &self.key))?
     }
 
+    /// Whether it names the rule of a slot.
+    pub fn is_slot(&self) -> bool {
+        self.key.rsplit('.').next() == Some("rule")
+    }
+
     /// The allowed values in words, such as `0 to 1` or `keep, close`; empty where any will do.
     pub fn allowed(&self) -> String {
         let range = self.range.map(|range| range.to_string());
