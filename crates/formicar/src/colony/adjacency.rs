@@ -1,4 +1,4 @@
-//! The weighted adjacency of cells, in the two ways of Wang 2019.
+//! The weighted adjacency of cells, by both calculations of Wang 2019.
 //!
 //! The colony walks on [`MoveMasks`](crate::map::MoveMasks), which hold the same in a byte per
 //! cell. These lists are for comparing the two calculations of the paper.

@@ -32,38 +32,38 @@ parameters! {
         pub alpha: f64,
         /// Steps that an ant may take.
         pub directions: Directions,
-        /// Which diagonal steps are allowed beside obstacles.
+        /// The diagonal steps that are allowed beside obstacles.
         pub diagonal_rule: DiagonalRule,
-        /// What an ant does beside the goal.
+        /// Behavior of an ant beside the goal.
         pub adjacent_goal: AdjacentGoal,
-        /// On which cells ants may step.
+        /// The cells on which ants may step.
         pub corridor: Corridor,
-        /// What pheromone lies on.
+        /// Layout of pheromone: on cells or on steps.
         pub trails: TrailLayout,
-        /// What a path costs.
+        /// Cost of a path.
         pub cost: PathCost,
-        /// What an ant sees of a cell.
+        /// Visibility of a cell.
         pub visibility: Visibility,
-        /// What an ant knows of the way to the goal.
+        /// Guidance by the distance to the goal.
         pub guidance: Guidance,
         /// Pheromone before the first iteration.
         pub initial: InitialPheromone,
-        /// How the next cell is chosen.
+        /// Choice of the next cell.
         pub transition: Transition,
-        /// What an ant does where no step is left.
+        /// Behavior of an ant at a dead end.
         pub dead_end: DeadEnd,
-        /// How pheromone evaporates.
+        /// Evaporation of pheromone.
         pub evaporation: Evaporation,
-        /// Who deposits pheromone, and how much.
+        /// Deposits of pheromone.
         pub deposit: Deposit,
-        /// Between which limits pheromone is kept.
+        /// Limits of pheromone.
         pub limits: PheromoneLimits,
-        /// When to stop before the last iteration.
+        /// Conditions to stop before the last iteration.
         pub stopping: Stopping,
     }
 }
 
-/// What an ant does beside the goal.
+/// The behavior of an ant beside the goal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum AdjacentGoal {
@@ -76,7 +76,7 @@ pub enum AdjacentGoal {
 
 impl Parameters for AdjacentGoal {}
 
-/// What pheromone lies on.
+/// The layout of pheromone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum TrailLayout {

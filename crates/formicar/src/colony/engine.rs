@@ -133,16 +133,17 @@ impl<C: Colony> Engine<C> {
     /// Remembers, updates pheromone, and reports.
     fn update(&mut self, iteration: u32, generation: &Generation<C::Cost>, limits: &mut Limits) {
         let (memory, parameters) = (&mut self.memory, self.colony.parameters());
-        memory.update(generation, parameters.stopping);
+        let best = generation.best();
+        memory.update(generation, best, parameters.stopping);
         let (n_iterations, n_stagnant) = (parameters.n_iterations, memory.n_stagnant);
         let rho = parameters
             .evaporation
             .rho(iteration, n_iterations, n_stagnant);
         self.colony.update(iteration, rho, generation, memory);
-        let record = self.record(iteration, rho, generation);
+        let record = self.record(iteration, rho, generation, best);
         limits.tell(&Event::Iteration(ColonyView {
             record: &record,
-            ways: generation.view(self.colony.space()),
+            ways: generation.view(self.colony.space(), best),
             pheromone: self.colony.pheromone(),
         }));
         self.history.iterations.push(record);
@@ -153,6 +154,7 @@ impl<C: Colony> Engine<C> {
         iteration: u32,
         rho: f64,
         generation: &Generation<C::Cost>,
+        best: Option<usize>,
     ) -> IterationRecord {
         let n_arrived = generation.arrived().count();
         let mean = |value: fn(&C::Cost) -> f64| {
@@ -161,7 +163,7 @@ impl<C: Colony> Engine<C> {
             (n_arrived > 0).then(|| sum / n_arrived as f64)
         };
         let cells = |length: f64| self.colony.length_cells(length);
-        let best = generation.best().map(|ant| generation.cost(ant));
+        let best = best.map(|ant| generation.cost(ant));
         let best_so_far = self.memory.best().map(|path| &path.cost);
         let (min_pheromone, max_pheromone) = self.colony.pheromone_range();
         IterationRecord {

@@ -111,7 +111,8 @@ impl<C: AntCost> Generation<C> {
         }
     }
 
-    pub(super) fn view<'a>(&'a self, space: StepSpace<'a>) -> AntWays<'a> {
+    /// All paths, with the best ant.
+    pub(super) fn view<'a>(&'a self, space: StepSpace<'a>, best: Option<usize>) -> AntWays<'a> {
         AntWays {
             start: space.start,
             goal: space.goal,
@@ -119,7 +120,7 @@ impl<C: AntCost> Generation<C> {
             steps: &self.steps,
             ends: &self.ends,
             arrived: &self.arrived,
-            best: self.best(),
+            best,
         }
     }
 }

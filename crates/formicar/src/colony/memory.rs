@@ -34,10 +34,15 @@ impl<C: AntCost> Memory<C> {
     }
 
     /// Takes over the best and the worst path of a generation where they beat those known.
-    pub(super) fn update(&mut self, generation: &Generation<C>, stopping: &Stopping) {
+    pub(super) fn update(
+        &mut self,
+        generation: &Generation<C>,
+        best: Option<usize>,
+        stopping: &Stopping,
+    ) {
         self.n_stagnant += 1;
         self.n_stalled += 1;
-        let (Some(best), Some(worst)) = (generation.best(), generation.worst()) else {
+        let (Some(best), Some(worst)) = (best, generation.worst()) else {
             return;
         };
         let cost = generation.cost(best).cost();

@@ -1,10 +1,10 @@
-//! Ant colony optimization over cells: one engine, and rules that take turns in its slots.
+//! Ant colony optimization over cells: one engine with exchangeable rules in its slots.
 //!
-//! Each iteration the ants walk from start to goal on frozen pheromone, each by random numbers of
-//! its own; then pheromone evaporates, ants deposit, limits are kept. What varies between methods
-//! is a rule in a slot: [`corridor`], [`heuristic`], [`initial`], [`transition`], [`dead_end`],
-//! [`evaporation`], [`deposit`], [`limits`]. A method is a [`ColonyConfig`], and those of papers
-//! are in [`presets`].
+//! In each iteration the ants walk from start to goal on frozen pheromone, each by random numbers
+//! of its own; then pheromone evaporates, ants deposit, and limits are applied. Methods differ by
+//! the rules in these slots: [`corridor`], [`heuristic`], [`initial`], [`transition`],
+//! [`dead_end`], [`evaporation`], [`deposit`], [`limits`]. A method is a [`ColonyConfig`], and
+//! those of papers are in [`presets`].
 
 mod adjacency;
 mod ant;

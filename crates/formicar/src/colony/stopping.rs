@@ -8,7 +8,7 @@ parameters! {
     pub struct Stopping {
         /// Iterations without a better path after which the colony stops; 0 for never.
         pub stall_iterations: u32,
-        /// How much cheaper a path must be to count as better, in shares of the cost.
+        /// Least gain of a path that counts as better, as a share of the cost.
         #[range(0.0..=1.0)]
         pub least_gain: f64,
         /// Cost at which a path is good enough; 0 for none.

@@ -28,7 +28,7 @@ parameters! {
         /// Most via points of any individual, at least `n_via_min`.
         #[range(1..=MAX_VIA)]
         pub n_via_max: u32,
-        /// How the first population is made.
+        /// The first population.
         pub initial: InitialPopulation,
         /// Individuals of which the fittest becomes a parent.
         #[range(1..=1000)]
@@ -39,7 +39,7 @@ parameters! {
         /// Probability that a child has two parents.
         #[range(0.0..=1.0)]
         pub crossover: f64,
-        /// How children change.
+        /// Mutations of children.
         pub mutation: Mutations,
         /// Penalty, in units of the cost, for as much way through blocked cells as the shortest
         /// path is long. A segment that is not free counts one cell more.
@@ -47,15 +47,15 @@ parameters! {
         pub collision_weight: f64,
         /// Generations without a better collision-free polyline after which it stops; 0 for never.
         pub stall_generations: u32,
-        /// What a polyline costs.
+        /// Cost of a polyline.
         pub cost: SteeringCost,
-        /// How the steering gives way in turns.
+        /// The suspension, which limits the steering in turns.
         pub suspension: SuspensionParameters,
     }
 }
 
 rules! {
-    /// How the first population is made.
+    /// The first population.
     #[serde(deny_unknown_fields)]
     pub enum InitialPopulation {
         /// Via points at random, all cells that can be reached alike.

@@ -13,7 +13,7 @@ pub struct EvolutionProblem<'a> {
     pub(super) goal: Cell,
     /// Side of a cell, metres.
     pub(super) resolution_m: f64,
-    /// The heading of the first step's turn, in the frame of the grid; none where it is free.
+    /// The start heading in the frame of the grid; none if it is free.
     pub(super) start_heading_rad: Option<f64>,
     /// Wheelbase in metres and largest steering in radians.
     pub(super) steering: [f64; 2],

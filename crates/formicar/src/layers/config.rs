@@ -12,18 +12,17 @@ pub const MAX_EXPANSION_CELLS: u32 = 64;
 const WIDTH_TOLERANCE_CELLS: f64 = 1e-6;
 
 parameters! {
-    /// What is laid over a map before ants walk on it; by default nothing.
+    /// Cells that are blocked in addition before ants walk on a map; by default none.
     #[derive(Default, Eq)]
     pub struct LayersConfig {
-        /// By how many cells obstacles are grown: `none`, `half-width` (of the vehicle), or
-        /// `{ cells = n }`.
+        /// Growth of obstacles: `none`, `half-width` (of the vehicle), or `{ cells = n }`.
         pub expansion: Expansion,
-        /// What becomes of the U-shaped areas of obstacles: `keep` or `close`.
+        /// Treatment of U-shaped areas of obstacles: `keep` or `close`.
         pub u_shapes: UShapes,
     }
 }
 
-/// By how many cells around obstacles the ground becomes impassable.
+/// The growth of obstacles in cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Expansion {
@@ -58,14 +57,14 @@ impl Expansion {
     }
 }
 
-/// What becomes of the areas that an obstacle embraces.
+/// The treatment of areas that an obstacle encloses on three sides.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum UShapes {
     /// They stay open.
     #[default]
     Keep,
-    /// They are closed where that lengthens no way around them (Lei 2020, sec. II.C).
+    /// They are closed where that lengthens no path around them (Lei 2020, sec. II.C).
     Close,
 }
 

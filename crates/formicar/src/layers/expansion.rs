@@ -28,7 +28,8 @@ pub fn obstacle_expansion(obstacles: &BitGrid, n_cells: u32) -> BitGrid {
 }
 
 /// Shifts that add up to a reach: what was spread by r so far can be spread by up to r + 1 more
-/// without leaving gaps (even at the border, where the cells beyond are lost), and less than a word.
+/// without leaving gaps (even at the border, where the cells beyond are lost), and less than a
+/// word.
 fn shifts(reach: usize) -> impl Iterator<Item = usize> {
     let mut reached = 0;
     std::iter::from_fn(move || {

@@ -49,13 +49,13 @@ parameters! {
         #[range(0.0..=100.0)]
         #[serde(skip)]
         pub swing_factor: f64 = 0.0,
-        /// How n(c) falls.
+        /// The shape of n(c).
         #[serde(skip)]
         pub falloff: Falloff = Falloff::Squared,
     }
 }
 
-/// How the cost of nearness falls from contact to the clearance wished for.
+/// The shape of the cost of nearness between contact and the desired clearance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Falloff {
     /// With the square of the lack of clearance; it goes on growing where estimates of the

@@ -6,7 +6,7 @@ use crate::parameters::{Parameters, parameters};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How corners of a polyline become drivable.
+/// The way in which corners of a polyline are made drivable.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Corners {
@@ -29,9 +29,9 @@ impl Parameters for Corners {}
 parameters! {
     /// Parameters of smoothing; costs are in meters of forward driving.
     pub struct SmoothingConfig {
-        /// Which nodes of the grid path stay before its corners are rounded.
+        /// The nodes of the grid path that stay before its corners are rounded.
         pub redundant_nodes: RedundantNodes = RedundantNodes::Remove,
-        /// How corners become drivable.
+        /// The way in which corners are made drivable.
         pub corners: Corners = Corners::TwoTurningOrDubins,
         /// Members of 2-turning tried per corner and order, besides the one nearest to the
         /// polyline.

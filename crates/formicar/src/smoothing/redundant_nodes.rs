@@ -6,7 +6,7 @@ use crate::path::GridPath;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Which nodes of a grid path stay before its corners are rounded.
+/// The nodes of a grid path that stay before its corners are rounded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RedundantNodes {

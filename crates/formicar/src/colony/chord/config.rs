@@ -30,9 +30,9 @@ parameters! {
         /// Chebyshev distance of a step's end in cells; 1 is the eight neighbors.
         #[range(1..=16)]
         pub reach: u32,
-        /// By how many turning radii obstacles are grown beyond half the vehicle's width for the
-        /// shortest path that guides the ants, the first that gives a drivable path; one to eight
-        /// of them.
+        /// Inflation of obstacles beyond half the vehicle's width for the shortest path that guides
+        /// the ants, in turning radii: one to eight values, of which the first counts that gives a
+        /// drivable path.
         #[range(0.0..=10.0)]
         pub growth_radii: Vec<f64>,
         /// β₁: exponent of the pheromone.
@@ -44,29 +44,29 @@ parameters! {
         /// β₃: exponent of the distance term.
         #[range(0.0..=10.0)]
         pub distance_exponent: f64,
-        /// Which steps the body has room for.
+        /// Collision check of steps.
         pub safety: Safety,
-        /// Where ants may go.
+        /// The cells on which ants may step.
         pub corridor: Corridor,
-        /// What an ant knows of the way to the goal besides the distance term.
+        /// Guidance by the distance to the goal besides the distance term.
         pub guidance: Guidance,
-        /// What the corner before a step costs.
+        /// Cost of the corner before a step.
         pub corner: CornerTerm,
-        /// What a step's way to the goal promises.
+        /// Distance term of a step.
         pub distance: DistanceTerm,
-        /// How far the vehicle can steer.
+        /// Steering limit of the vehicle.
         pub limit: SteeringLimit,
-        /// How both terms enter the weight of a step.
+        /// Weight of a step by both terms.
         pub transition: ChordTransition,
-        /// What an ant does where no step is left. One that retreats goes back some steps, more of
-        /// them each time, and draws anew.
+        /// Behavior of an ant at a dead end. One that retreats goes back some steps, more of them
+        /// each time, and draws anew.
         pub dead_end: DeadEnd,
-        /// Pheromone before the first generation. The unit of a deposit is what the shortest path
-        /// itself would get.
+        /// Pheromone before the first generation. The unit of a deposit is that of the shortest path
+        /// itself.
         pub initial: AstarSeed,
-        /// How pheromone evaporates.
+        /// Evaporation of pheromone.
         pub evaporation: Evaporation,
-        /// Who deposits pheromone, and how much.
+        /// Deposits of pheromone.
         pub deposit: SpreadDeposit,
         /// J: what a path costs.
         pub cost: SteeringCost,

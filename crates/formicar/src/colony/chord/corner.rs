@@ -26,12 +26,12 @@ parameters! {
         /// ε: weight of the turn.
         #[range(0.0..=1e6)]
         pub epsilon: f64 = 0.1,
-        /// What G is.
+        /// The quantity G.
         pub straightness: StraightnessUse = StraightnessUse::MeanTurn,
     }
 }
 
-/// What G is in the corner term.
+/// The quantity G in the corner term.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum StraightnessUse {

@@ -22,12 +22,12 @@ parameters! {
         /// `P_h`: pheromone.
         #[range(1e-6..=1e6)]
         pub pheromone: f64 = 1.0,
-        /// Which ants deposit.
+        /// The ants that deposit.
         pub by: Depositor = Depositor::Best,
     }
 }
 
-/// Which ants deposit.
+/// The ants that deposit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Depositor {

@@ -55,8 +55,8 @@ pub(super) struct Turn {
 }
 
 impl<'a> ChordGraph<'a> {
-    /// Prepares two goal fields, the corridor, the ring and the swept masks; none where the grid
-    /// has no way.
+    /// Prepares two goal fields, the corridor, the ring and the swept masks; none if the grid has no
+    /// path.
     pub(super) fn new(
         problem: &'a ChordProblem<'a>,
         config: &'a ChordConfig,

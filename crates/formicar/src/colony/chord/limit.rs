@@ -6,7 +6,7 @@ use crate::vehicle::SuspensionParameters;
 rules! {
     /// `phi_c`: the steering that the vehicle can give where an ant is.
     pub enum SteeringLimit {
-        /// What the suspension leaves of it on the ant's way (Li 2024, sec. 3).
+        /// The limit under the suspension on the ant's path (Li 2024, sec. 3).
         Dynamic(DynamicLimit),
         /// That of the rigid vehicle.
         Rigid,
@@ -14,7 +14,7 @@ rules! {
 }
 
 parameters! {
-    /// How the suspension gives way.
+    /// The suspension.
     #[derive(Default)]
     pub struct DynamicLimit {
         /// Its parameters.

@@ -1,10 +1,10 @@
 //! Ants that step by chords, as a car would steer: the colony of Li et al. 2024.
 //!
 //! A step leads straight to a cell of the ring around an ant, so that directions lie a few degrees
-//! apart and a turn asks for an angle of steering that the vehicle may or may not have. What an
-//! ant sees of a step depends on how it came: its corner, how straight its last steps were, what
-//! its suspension leaves of the steering, and the memory of a fractional derivative. The rules in
-//! the slots of a [`ChordConfig`] are those of the paper, each with what switches it off.
+//! apart, and the vehicle may or may not be able to steer a turn. The weight of a step depends on
+//! the path so far: the corner before it, the straightness of the last steps, the steering limit of
+//! the suspension, and the memory of a fractional derivative. The rules in the slots of a
+//! [`ChordConfig`] are those of the paper; each can be switched off.
 
 mod ant;
 mod candidates;

@@ -5,7 +5,7 @@ use crate::geometry::Pose2;
 use crate::map::{Cell, MoveMasks};
 use crate::vehicle::Vehicle;
 
-/// A vehicle on a map, its start and goal, and the grid on which shortest ways guide the ants.
+/// A vehicle on a map, its start and goal, and the grid on which shortest paths guide the ants.
 #[derive(Clone, Copy, Debug)]
 pub struct ChordProblem<'a> {
     /// The map.

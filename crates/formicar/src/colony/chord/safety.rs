@@ -21,7 +21,7 @@ rules! {
 }
 
 parameters! {
-    /// How far the footprint keeps off.
+    /// The margin of the footprint.
     pub struct FootprintSafety {
         /// `L_tr`: margin around the body in cells.
         #[range(0.0..=64.0)]

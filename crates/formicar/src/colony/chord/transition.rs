@@ -4,8 +4,8 @@ use crate::numeric::grunwald_letnikov_weights;
 use crate::parameters::{parameters, rules};
 
 rules! {
-    /// How R, what a corner leaves of a step, and Q, what its way promises, enter the weight
-    /// tau^beta1 R^beta2 Q^beta3 of a step (Li 2024, equation 25).
+    /// The weight tau^beta1 R^beta2 Q^beta3 of a step (Li 2024, equation 25), with R by its corner and
+    /// Q by its distance to the goal.
     pub enum ChordTransition {
         /// By their fractional derivatives along the ant's last steps.
         Fractional(FractionalTransition),

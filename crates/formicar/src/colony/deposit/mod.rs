@@ -122,7 +122,7 @@ mod tests {
 
     fn memory(generation: &Generation) -> Memory {
         let mut memory = Memory::default();
-        memory.update(generation, &Stopping::default());
+        memory.update(generation, generation.best(), &Stopping::default());
         memory
     }
 

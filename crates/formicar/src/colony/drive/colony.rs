@@ -25,7 +25,7 @@ pub struct DriveColony<'a, 'c> {
 }
 
 impl<'a> DriveColony<'a, '_> {
-    /// Runs `body` with a colony on at most so many threads, and hands the guide back.
+    /// Runs `body` with a colony on at most `n_threads` threads, and returns the guide.
     pub fn with<R>(
         problem: &DriveProblem<'a>,
         config: &DriveConfig,
@@ -144,7 +144,7 @@ impl<'a> DriveColony<'a, '_> {
         std::mem::take(&mut self.ways.0)
     }
 
-    /// Tells the observer of the generation that has walked.
+    /// Reports the last generation to the observer.
     fn tell(&self, ways: &[DriveWay], limits: &mut Limits) {
         limits.tell(&Event::Drive(DriveView {
             generation: self.generation - 1,

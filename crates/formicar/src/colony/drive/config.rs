@@ -10,26 +10,26 @@ const MAX_ANTS: u32 = 10_000;
 parameters! {
     /// Parameters of ants that drive.
     pub struct DriveConfig where check_racers {
-        /// Who races for a first path.
+        /// The searches that race for a first path.
         pub race: Racers = Racers::default(),
         /// Ants of a generation; without any, hybrid A* searches alone.
         #[range(0..=MAX_ANTS)]
         pub n_ants: u32 = 8,
-        /// How much ants prefer what leads on: a motion that costs its own length more than the
-        /// best one is taken exp(-beta) times as often.
+        /// Greediness of ants: a motion whose cost exceeds the best one's by its own length is taken
+        /// exp(-beta) times as often.
         #[range(0.0..=100.0)]
         pub beta: f64 = 8.0,
-        /// Steps back that an ant takes where nothing leads on before it dies.
+        /// Steps back out of dead ends that an ant may take before it dies.
         #[range(0..=10_000)]
         pub n_retreats: u32 = 30,
-        /// An ant dies after so many times the steps that the way along the field takes.
+        /// An ant dies after this many times the steps of the path along the goal field.
         #[range(1.0..=100.0)]
         pub detour_ratio: f64 = 3.0,
-        /// How the goal field is repaired where ants die.
+        /// Repair of the goal field where ants die.
         pub repair: FieldRepair = FieldRepair::default(),
         /// The trails that focused ants follow.
         pub trails: TrailsConfig = TrailsConfig::default(),
-        /// Generations of focused ants without a gain after which to stop; 0 sends none.
+        /// Generations of focused ants without a gain after which they stop; 0 sends none.
         #[range(0..=10_000)]
         pub n_stalled: u32 = 1,
         /// Steps that hybrid A* has for a path of its own where ants won the race.
@@ -41,20 +41,19 @@ parameters! {
 parameters! {
     /// The trails that focused ants follow.
     pub struct TrailsConfig {
-        /// How much ants prefer trails: a motion onto full pheromone weighs 1 + alpha times as
-        /// much.
+        /// Weight of pheromone: a motion onto full pheromone weighs 1 + alpha times as much.
         #[range(0.0..=1000.0)]
         pub alpha: f64 = 1.0,
         /// Share of the pheromone that evaporates in a generation.
         #[range(0.0..=1.0)]
         pub rho: f64 = 0.2,
-        /// What the best way so far lays in a generation; a bin holds at most 1.
+        /// Pheromone that the best path so far deposits in a generation; a bin holds at most 1.
         #[range(0.0..=1.0)]
         pub deposit: f64 = 0.5,
     }
 }
 
-/// Who races for a first path; less than both shows what the other is good for.
+/// The searches that race for a first path; one of them alone shows the gain of the other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Racers {
@@ -70,12 +69,12 @@ pub enum Racers {
 impl Parameters for Racers {}
 
 parameters! {
-    /// How the goal field is repaired where ants die.
+    /// Repair of the goal field where ants die.
     pub struct FieldRepair {
-        /// Radius of the ground that becomes dearer about a place of death, in turning radii.
+        /// Radius around a place of death in which cells get a toll, in turning radii.
         #[range(0.0..=10.0)]
         pub reach_radii: f64 = 0.5,
-        /// What a cell there costs beyond its step, in steps per death; 0 repairs nothing.
+        /// Toll of a cell there, in steps per death; 0 repairs nothing.
         #[range(0.0..=100.0)]
         pub toll_per_death: f64 = 1.0,
     }

@@ -28,7 +28,7 @@ impl<'a> DriveWorker<'a> {
     }
 }
 
-/// Ways of some ants, in their order.
+/// Paths of some ants, in their order.
 #[derive(Default)]
 pub(super) struct Ways(pub(super) Vec<DriveWay>);
 

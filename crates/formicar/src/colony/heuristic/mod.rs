@@ -17,29 +17,29 @@ use super::ColonyProblem;
 use crate::parameters::rules;
 
 rules! {
-    /// What an ant sees of a cell: eta to the power of beta.
+    /// The visibility of a cell: eta to the power of beta.
     #[derive(Default)]
     pub enum Visibility {
-        /// Nothing.
+        /// All cells alike.
         #[default]
         None,
-        /// How near it lies to the goal in a straight line.
+        /// Nearness to the goal in a straight line.
         GoalDistance(GoalDistance),
-        /// How short the step to it is.
+        /// Shortness of the step to the cell.
         StepLength(StepLength),
     }
 }
 
 rules! {
-    /// What an ant knows of the way from a cell to the goal, obstacles included.
+    /// Guidance by the length of the shortest path to the goal around obstacles.
     #[derive(Default)]
     pub enum Guidance {
-        /// Nothing.
+        /// No guidance.
         #[default]
         None,
-        /// The length of the shortest way.
+        /// By the length of the shortest path.
         GoalField(GoalFieldGuidance),
-        /// How much of it a step saves.
+        /// By the length that a step saves.
         Advantage(Advantage),
     }
 }

@@ -16,7 +16,7 @@ parameters! {
         /// n: how many times that lies on the path.
         #[range(1e-3..=1e3)]
         pub factor: f64 = 5.0,
-        /// What a unit is.
+        /// The unit of `tau`.
         pub unit: PheromoneUnit = PheromoneUnit::Deposit,
     }
 }

@@ -15,7 +15,7 @@ parameters! {
         /// Pheromone on the line.
         #[range(1e-6..=1e6)]
         pub tau_max: f64 = 2.0,
-        /// What a unit is.
+        /// The unit of both.
         pub unit: PheromoneUnit = PheromoneUnit::Deposit,
     }
 }

@@ -28,15 +28,15 @@ rules! {
     }
 }
 
-/// What a unit of initial pheromone is.
+/// The unit of initial pheromone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PheromoneUnit {
     /// One.
     #[default]
     Absolute,
-    /// What an iteration deposits on the way that all ants take if no obstacle stands between
-    /// start and goal, so that the first deposits do not swamp it.
+    /// The deposit of an iteration whose ants all take the straight path from start to goal without
+    /// obstacles, so that the first deposits do not swamp it.
     Deposit,
 }
 

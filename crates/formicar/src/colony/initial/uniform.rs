@@ -9,7 +9,7 @@ parameters! {
         /// τ₀: pheromone on every cell.
         #[range(1e-6..=1e6)]
         pub tau: f64 = 1.0,
-        /// What a unit is.
+        /// The unit of `tau`.
         pub unit: PheromoneUnit = PheromoneUnit::Deposit,
     }
 }
