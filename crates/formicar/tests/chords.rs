@@ -109,7 +109,7 @@ fn costs_of_the_best_never_rise_and_earlier_ones_were_dearer() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(ProptestConfig::default().cases / 25))]
+    #![proptest_config(ProptestConfig::with_cases(ProptestConfig::default().cases / 50))]
 
     #[test]
     fn every_step_of_every_ant_is_safe_within_the_steering_limit(seed in 0_u64..1000) {

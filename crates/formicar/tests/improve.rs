@@ -164,7 +164,7 @@ fn quick() -> ImproveConfig {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(ProptestConfig::default().cases / 12))]
+    #![proptest_config(ProptestConfig::with_cases(ProptestConfig::default().cases / 30))]
 
     #[test]
     fn paths_on_random_maps_stay_certified_and_get_cheaper(

@@ -402,6 +402,8 @@ fn any_number() -> impl Strategy<Value = f64> {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(ProptestConfig::default().cases / 5))]
+
     #[test]
     fn any_text_is_escaped(title in any::<String>()) {
         check(&plan(&room(), &title).to_svg());

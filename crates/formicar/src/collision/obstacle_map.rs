@@ -228,7 +228,7 @@ mod tests {
         #[test]
         fn an_updated_map_is_that_of_the_changed_cells(
             n_cols in 1_usize..400,
-            n_rows in 1_usize..300,
+            n_rows in 1_usize..80,
             density in 0_usize..40,
             updates in prop::collection::vec((0.0..1.0, 0.0..1.0, 1_usize..40, 1_usize..40), 1..4),
             seed in any::<u64>(),

@@ -113,6 +113,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(ProptestConfig::with_cases(ProptestConfig::default().cases / 5))]
+
         #[test]
         fn is_what_clipping_at_every_blocked_cell_gives(
             ends in prop::array::uniform4(0_u32..150),

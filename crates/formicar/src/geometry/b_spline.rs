@@ -251,6 +251,10 @@ mod tests {
             let slope = (spline.at(u + h) - spline.at(u - h)) * (0.5 / h);
             prop_assert!(slope.distance(spline.derivative(u)) < 1e-3);
         }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(ProptestConfig::default().cases / 5))]
 
         #[test]
         fn its_arcs_join_without_kinks_and_stay_within_the_tolerance(

@@ -240,6 +240,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(ProptestConfig::with_cases(ProptestConfig::default().cases / 3))]
+
         #[test]
         fn equals_a_comparison_of_all_ways(
             // 0 to 4 are obstacles, 5 to 9 the pocket, of which 5 stays open.

@@ -68,6 +68,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(ProptestConfig::with_cases(ProptestConfig::default().cases / 3))]
+
         #[test]
         fn equals_a_test_of_triangles(spans in prop::collection::vec((0_u32..12, 0_u32..4), 1..10)) {
             let spans: Vec<Span> = spans.into_iter().map(span).collect();

@@ -116,8 +116,8 @@ mod tests {
 
         #[test]
         fn refreshed_cells_are_those_of_the_changed_map(
-            n_cols in 30_usize..300,
-            n_rows in 30_usize..200,
+            n_cols in 30_usize..160,
+            n_rows in 30_usize..80,
             density in 0_usize..60,
             place in (0.0..1.0, 0.0..1.0),
             size in (1_usize..30, 1_usize..30),
