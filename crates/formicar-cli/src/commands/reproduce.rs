@@ -1,4 +1,4 @@
-//! `reproduce`: what a paper claims, repeated on our maps.
+//! `reproduce`: the experiments of papers, repeated on our maps.
 
 use super::machine;
 use crate::failure::{Ending, Failure};

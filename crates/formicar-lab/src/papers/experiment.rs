@@ -1,4 +1,4 @@
-//! What an experiment is made of.
+//! The parts of an experiment: grounds, variants, and the number of runs.
 
 use crate::papers::trial::{Run, Trial};
 use crate::run::pool;
@@ -10,7 +10,7 @@ use formicar::scenario::{GoalHeading, Request, StartHeading};
 use formicar::vehicle::Vehicle;
 use std::path::PathBuf;
 
-/// How much is run.
+/// The number of runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scale {
     /// Runs of each variant on each map, with the seeds 0 to `n_seeds` - 1.
@@ -19,7 +19,7 @@ pub struct Scale {
     pub n_runs: u64,
     /// Repetitions of each timing.
     pub n_timings: usize,
-    /// Whether only the smaller of several sizes and sets are run.
+    /// Runs only the smaller of several sizes and sets.
     pub is_small: bool,
 }
 
@@ -31,7 +31,7 @@ impl Scale {
         n_timings: 11,
         is_small: false,
     };
-    /// Enough to see that it works.
+    /// Few runs, to check that everything works.
     pub const QUICK: Self = Self {
         n_seeds: 3,
         n_runs: 3,
@@ -40,12 +40,12 @@ impl Scale {
     };
 }
 
-/// How much is run, and on what.
+/// The number of runs, and their data.
 #[derive(Clone, Debug)]
 pub struct Setup {
-    /// How much.
+    /// The number of runs.
     pub scale: Scale,
-    /// Folder of data sets; what is not there is passed over.
+    /// Folder of data sets; missing ones are left out.
     pub data: PathBuf,
     /// Runs at a time. Results do not depend on it; times do.
     pub n_jobs: usize,
@@ -84,16 +84,16 @@ impl Variant {
     }
 }
 
-/// A map, a vehicle and a request with free headings, as the papers ask.
+/// A map, a vehicle and a request.
 #[derive(Clone, Debug)]
 pub struct Ground {
     /// Name of the map, with that of the request where there are several.
     pub map: String,
     /// The map itself.
     pub grid: OccupancyGrid,
-    /// Who drives.
+    /// The vehicle.
     pub vehicle: Vehicle,
-    /// From where to where.
+    /// The query.
     pub request: Request,
 }
 
@@ -121,12 +121,12 @@ pub(crate) fn run_all(
     grounds: &[Ground],
     variants: impl Fn(&Ground) -> Vec<Variant>,
     setup: &Setup,
-    tell: &mut dyn FnMut(&str),
+    report_progress: &mut dyn FnMut(&str),
 ) -> Result<Vec<Run>> {
     let mut runs = Vec::new();
     for ground in grounds {
         for variant in variants(ground) {
-            tell(&format!("{}: {}", ground.map, variant.name));
+            report_progress(&format!("{}: {}", ground.map, variant.name));
             let n_seeds = setup.scale.n_seeds as usize;
             let of_variant = pool::map(setup.n_jobs, n_seeds, |seed| {
                 Trial::run(ground, &variant, seed as u64)

@@ -99,7 +99,8 @@ impl<R: ResultRow> Group<'_, R> {
         &self,
         other: &Self,
         quantity: &Quantity<R>,
-        (name, expected): (String, Expected),
+        name: String,
+        expected: Expected,
     ) -> Comparison {
         let pair = |row: &&R| {
             let is_same =

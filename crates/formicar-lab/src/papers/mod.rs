@@ -6,7 +6,7 @@
 
 pub mod claims;
 mod correspondence;
-mod exhibit;
+mod drawn_run;
 pub(crate) mod experiment;
 mod group;
 mod lei2020;

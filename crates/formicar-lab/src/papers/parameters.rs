@@ -21,14 +21,14 @@ pub(crate) fn section(reference: &str, variant: &Variant) -> Result<Section> {
     Ok(Section::of_table("Parameters", sheet.table("parameters")))
 }
 
-/// Where the parameters of a planner's preset come from, as the references tell: its own table,
-/// then those of the presets that it is made from.
+/// The origins of the parameters of a planner's preset, from the references: its own table, then
+/// those of the presets that it is derived from.
 pub(crate) struct Origins {
     tables: Vec<(String, Vec<Known<'static>>)>,
 }
 
 impl Origins {
-    /// Of a planner; those without a reference have no tables.
+    /// The origins for a planner; one without a reference has no tables.
     pub(crate) fn of(planner: &str) -> Self {
         let (mut tables, mut next) = (Vec::new(), Some(planner));
         while let Some(name) = next {
@@ -42,7 +42,7 @@ impl Origins {
     }
 
     /// The origin of a parameter as the preset has it, and the place in the paper or the reason.
-    /// What is taken over from another preset is our choice.
+    /// A value taken from another preset counts as our choice.
     pub(crate) fn of_key(&self, key: &str) -> (Source, String) {
         let mut rows = self
             .tables

@@ -1,4 +1,4 @@
-//! What an experiment hands over: rows, a report, and how they came about.
+//! The result of an experiment: rows, a report, and their provenance.
 
 use crate::papers::experiment::{Ground, Setup, Variant};
 use crate::papers::trial::{Run, Trial};
@@ -8,14 +8,14 @@ use anyhow::Result;
 use formicar::collision::ObstacleMap;
 use serde::Serialize;
 
-/// All rows of an experiment, and what they come to.
-#[derive(Clone, Debug)]
+/// All rows of an experiment, and the report on them.
+#[derive(Clone, Debug, Default)]
 pub struct Reproduction {
     /// Tables and figures.
     pub report: Report,
     /// Every run, as CSV.
     pub csv: String,
-    /// How the runs that are drawn by iteration came about, as CSV; may be empty.
+    /// The iterations of the runs that are drawn by iteration, as CSV; may be empty.
     pub courses_csv: String,
     /// The runs as logs of OMPL, one per map.
     pub ompl_logs: Vec<OmplLog>,
@@ -28,11 +28,12 @@ pub struct Reproduction {
 }
 
 impl Reproduction {
-    /// Of runs of all variants on all grounds.
+    /// The result of runs of all variants on all grounds.
     pub(crate) fn of_runs(
         report: Report,
         runs: &[Run],
-        (grounds, variants): (&[Ground], impl Fn(&Ground) -> Vec<Variant>),
+        grounds: &[Ground],
+        variants: impl Fn(&Ground) -> Vec<Variant>,
         setup: &Setup,
     ) -> Result<Self> {
         let mut facts = facts_of(grounds);
@@ -61,7 +62,7 @@ impl Reproduction {
     /// The files of its folder: names and contents. `machine` tells version, machine and command.
     ///
     /// # Errors
-    /// None that is expected: all is written to memory.
+    /// No error is expected: everything is written to memory.
     pub fn files(&self, machine: &[Fact]) -> Result<Vec<(String, String)>> {
         let facts = [machine, &self.facts].concat();
         let whole = Page {
@@ -136,7 +137,7 @@ fn courses_csv(runs: &[Run]) -> Result<String> {
     csv(&rows.collect::<Vec<_>>())
 }
 
-/// How many runs were timed at once.
+/// The number of runs that were timed side by side.
 pub(crate) fn at_a_time(n_jobs: usize) -> Fact {
     let words = match n_jobs {
         0 | 1 => "1: no run was slowed by another".to_owned(),

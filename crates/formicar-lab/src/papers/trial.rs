@@ -1,18 +1,18 @@
 //! One run of a colony, from the map to the judge.
 
 use crate::papers::experiment::{Ground, Variant};
+use crate::run::{TimedIteration, measure};
 use anyhow::Result;
 use formicar::map::{BitGrid, Cell, MoveMasks};
 use formicar::numeric::Seed;
 use formicar::path::GridPath;
 use formicar::planner::{Outcome, Planner, Stages};
-use formicar::progress::{Event, History, IterationRecord, Limits, Observer};
+use formicar::progress::{History, IterationRecord, Limits};
 use formicar::search::GoalField;
 use serde::Serialize;
 use std::f64::consts::SQRT_2;
-use std::time::{Duration, Instant};
 
-/// What a run came to; lengths of the ants' way are in cells, a diagonal step counting sqrt(2).
+/// The result of a run; lengths of the ants' way are in cells, a diagonal step counting sqrt(2).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Trial {
     /// The map.
@@ -21,9 +21,9 @@ pub struct Trial {
     pub variant: String,
     /// The seed.
     pub seed: u64,
-    /// Whether an ant reached the goal.
+    /// An ant reached the goal.
     pub arrived: bool,
-    /// Whether the judge certified the smoothed path.
+    /// The judge certified the smoothed path.
     pub certified: bool,
     /// Length of the ants' best way.
     pub length_cells: Option<f64>,
@@ -45,9 +45,9 @@ pub struct Trial {
     pub n_iterations: usize,
     /// Share of all ants that arrived.
     pub arrived_share: f64,
-    /// Length of the certified path, metres.
+    /// Length of the certified path, meters.
     pub length_m: Option<f64>,
-    /// Its least clearance, metres.
+    /// Its least clearance, meters.
     pub min_clearance_m: Option<f64>,
     /// Length of the best way after a tenth of the iterations that a run may have.
     pub early_length_cells: Option<f64>,
@@ -88,40 +88,23 @@ pub(crate) struct Moment {
     pub(crate) rho: f64,
 }
 
-/// Notes every iteration and when it ended.
-struct Clock {
-    begun: Instant,
-    search_begun: Duration,
-    moments: Vec<Moment>,
-}
-
-impl Observer for Clock {
-    fn on_event(&mut self, event: &Event) {
-        match event {
-            Event::SearchStarted => self.search_begun = self.begun.elapsed(),
-            Event::Iteration(view) => self.note(view.record),
-            _ => {}
-        }
-    }
-}
-
-impl Clock {
-    fn note(&mut self, record: &IterationRecord) {
-        if record.iteration == 0 {
-            // A planner that tries again begins anew.
-            self.moments.clear();
-        }
-        let n_before = self.moments.last().map_or(0, |last| last.n_ants);
-        let since = self.begun.elapsed().saturating_sub(self.search_begun);
-        self.moments.push(Moment {
-            iteration: record.iteration + 1,
-            n_ants: n_before + u64::from(record.n_ants),
-            ms: since.as_secs_f64() * 1e3,
-            best_so_far_length: record.best_so_far_length,
-            best_length: record.best_length,
-            mean_length: record.mean_length,
-            rho: record.rho,
-        });
+impl Moment {
+    /// The states after all iterations.
+    fn all(iterations: &[TimedIteration]) -> Vec<Self> {
+        let mut n_ants = 0;
+        let moment = |TimedIteration { at_s, record }: &TimedIteration| {
+            n_ants += u64::from(record.n_ants);
+            Self {
+                iteration: record.iteration + 1,
+                n_ants,
+                ms: 1e3 * at_s,
+                best_so_far_length: record.best_so_far_length,
+                best_length: record.best_length,
+                mean_length: record.mean_length,
+                rho: record.rho,
+            }
+        };
+        iterations.iter().map(moment).collect()
     }
 }
 
@@ -131,14 +114,10 @@ impl Trial {
         let config = variant.config.clone();
         let mut planner = Planner::new(&ground.grid, ground.vehicle.clone(), config)?;
         let n_tenth = variant.config.colony.n_iterations.div_ceil(10);
-        let begun = Instant::now();
-        let mut clock = Clock {
-            begun,
-            search_begun: Duration::ZERO,
-            moments: Vec::new(),
-        };
-        let outcome = planner.plan(&ground.request, Seed(seed), &mut clock)?;
-        let query_ms = begun.elapsed().as_secs_f64() * 1e3;
+        let measured = measure(&mut (), |observer| {
+            planner.plan(&ground.request, Seed(seed), observer)
+        });
+        let outcome = measured.answer?;
         let stages = outcome.stages();
         // Where obstacle expansion covers an end no colony sets out.
         let nothing = History::default();
@@ -149,7 +128,7 @@ impl Trial {
             Outcome::NotFound(_) => None,
         };
         let obstacles = ground.grid.lethal_cells();
-        let moments = clock.moments;
+        let moments = Moment::all(&measured.iterations);
         let trial = Self {
             map: ground.map.clone(),
             variant: variant.name.clone(),
@@ -170,7 +149,7 @@ impl Trial {
             min_clearance_m: plan.map(|plan| plan.certificate.min_clearance_m),
             early_length_cells: early_length(&moments, n_tenth),
             late_spread_cells: late_spread(&moments),
-            query_ms,
+            query_ms: 1e3 * measured.query_s,
             search_ms: moments.last().map_or(0.0, |last| last.ms),
         };
         Ok(Run { trial, moments })

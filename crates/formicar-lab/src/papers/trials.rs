@@ -52,11 +52,12 @@ impl<'a> Runs<'a> {
         &self,
         map: &str,
         [first, other]: [&str; 2],
-        (quantity, expected): (&Quantity<Trial>, Expected),
+        quantity: &Quantity<Trial>,
+        expected: Expected,
     ) -> Comparison {
         let name = comparison_name(map, first, other);
         let groups = [first, other].map(|variant| self.group(map, variant));
-        groups[0].compare(&groups[1], quantity, (name, expected))
+        groups[0].compare(&groups[1], quantity, name, expected)
     }
 
     /// A box per variant of a map, of the lengths of the ants' best ways.

@@ -1,4 +1,4 @@
-//! What stands in a cell of a table.
+//! The contents of a cell of a table.
 
 use super::Verdict;
 use crate::analysis::statistics::wilson_interval;
@@ -8,17 +8,17 @@ use crate::analysis::statistics::wilson_interval;
 pub enum Field {
     /// Words.
     Words(String),
-    /// How a claim fares.
+    /// The verdict on a claim.
     Verdict(Verdict),
-    /// A number with so many decimals; a dash for none.
+    /// A number and its decimals; a dash for `None`.
     Number(Option<f64>, usize),
     /// A probability: four decimals, or that it is less than the least of them.
     Probability(Option<f64>),
     /// A number with its interval, or a median with its quartiles: `[low, value, high]`.
     Spread(Option<[f64; 3]>, usize),
-    /// So many of so many.
+    /// A count out of a total.
     Count(usize, usize),
-    /// So many of so many, with the 95 % interval of the rate in percent (Wilson).
+    /// A count out of a total, with the 95 % interval of the rate in percent (Wilson).
     Rate(usize, usize),
 }
 
@@ -43,7 +43,7 @@ impl Field {
         self.laid_out(&written)
     }
 
-    /// Its numbers; none of words and of what is missing.
+    /// Its numbers; words and missing values have none.
     pub(super) fn parts(&self) -> Vec<Part> {
         let parts = |named: Vec<(&'static str, String)>| {
             let part = |(suffix, text)| Part { suffix, text };
@@ -89,11 +89,11 @@ impl Field {
     }
 }
 
-/// A number with so many decimals, never a negative nought.
+/// A number with so many decimals, never a negative zero.
 fn decimal(value: f64, n_decimals: usize) -> String {
     let text = format!("{value:.n_decimals$}");
-    let is_nought = text.starts_with('-') && text.chars().all(|c| "-0.".contains(c));
-    text[usize::from(is_nought)..].to_owned()
+    let is_zero = text.starts_with('-') && text.chars().all(|c| "-0.".contains(c));
+    text[usize::from(is_zero)..].to_owned()
 }
 
 fn probability(p: f64) -> String {

@@ -132,7 +132,7 @@ impl SectionWriter<'_> {
     }
 }
 
-/// Whether a picture is narrow enough to stand beside another such.
+/// Tells if a picture is narrow enough to stand beside another such picture.
 fn is_narrow(figure: Option<&Figure>) -> bool {
     let svg = figure.map_or("", |figure| figure.svg.as_str());
     let width = svg.split_once(" width=\"");
@@ -230,7 +230,7 @@ fn write_verdict(html: &mut Markup, verdict: Verdict) {
     });
 }
 
-/// A number with its name, for whoever looks for it.
+/// A number with its name, for programs that read the page.
 fn number(part: &NamedPart) -> String {
     let mut html = Markup::default();
     html.words(&Element::new("data").text("value", &part.key), &part.text);

@@ -84,7 +84,7 @@ fn rows(table: &Table, named: &[Vec<Vec<NamedPart>>]) -> String {
     text
 }
 
-/// How a column is set: numbers from the right, words from the left, long ones in several lines.
+/// The alignment of a column: numbers right, words left, long ones in several lines.
 fn column(table: &Table, i: usize) -> &'static str {
     let fields = || table.rows.iter().filter_map(|row| row.get(i));
     let is_words = |field: &Field| matches!(field, Field::Words(_) | Field::Verdict(_));

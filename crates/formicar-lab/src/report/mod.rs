@@ -39,11 +39,11 @@ const PROSE_CHARS: usize = 34;
 /// A document; words between backticks are set as code.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
-    /// What the names of numbers and tables begin with, and of a reproduction its folder.
+    /// The prefix of the names of numbers and tables; of a reproduction also its folder.
     pub name: String,
     /// The heading.
     pub title: String,
-    /// What the tables hold, in a paragraph.
+    /// The contents of the tables, in a paragraph.
     pub intro: String,
     /// The sections in order.
     pub sections: Vec<Section>,
@@ -54,7 +54,7 @@ pub struct Report {
 pub struct Section {
     /// The heading.
     pub heading: String,
-    /// What stands below it.
+    /// Its contents.
     pub blocks: Vec<Block>,
 }
 

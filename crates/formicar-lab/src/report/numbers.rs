@@ -8,7 +8,7 @@ use anyhow::Result;
 /// stands, and the number as it is written there.
 ///
 /// # Errors
-/// None that is expected: it is written to memory.
+/// No error is expected: everything is written to memory.
 pub fn numbers_csv(report: &Report) -> Result<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(["name", "table", "row", "column", "value"])?;

@@ -18,7 +18,7 @@ pub enum PropertyKind {
     Real,
 }
 
-/// What every run of a planner has.
+/// A property that every run of a planner has.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Property {
     /// Its name in small letters, as OMPL has `time` and `solution length`.
@@ -83,7 +83,7 @@ pub struct OmplLog {
     pub cpu: String,
     /// First seed.
     pub seed: u64,
-    /// What all runs have.
+    /// The properties of all runs.
     pub properties: Vec<Property>,
     /// The planners.
     pub planners: Vec<OmplPlanner>,
@@ -249,7 +249,7 @@ mod tests {
         }
     }
 
-    /// What `ompl_benchmark_statistics` reads of a planner, in the order in which it reads.
+    /// The lines that `ompl_benchmark_statistics` reads for a planner, in its order.
     fn read_planner<'a>(lines: &mut impl Iterator<Item = &'a str>) -> (String, Vec<Vec<String>>) {
         let count = |line: &str| -> usize { line.split(' ').next().unwrap().parse().unwrap() };
         let name = lines.next().unwrap().to_owned();

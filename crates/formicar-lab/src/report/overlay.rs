@@ -1,4 +1,4 @@
-//! Paths of several planners on one map, and what one of them is like along its length.
+//! Paths of several planners on one map, and strip charts along one path.
 
 use super::Figure;
 use formicar::collision::{Body, ObstacleMap};
@@ -10,11 +10,11 @@ use formicar::render::{
 };
 use formicar::vehicle::Vehicle;
 
-/// Spacing of places along a path, metres; short paths have no fewer than `MIN_PLACES`.
+/// Spacing of places along a path, meters; short paths have no fewer than `MIN_PLACES`.
 const SPACING_M: f64 = 0.05;
 const MIN_PLACES: f64 = 200.0;
 
-/// Spacing of drawn places along a curve, metres.
+/// Spacing of drawn places along a curve, meters.
 const OVERLAY_SPACING_M: f64 = 0.1;
 
 /// Lines that differ in color, dash and width, the last path's first.
@@ -27,10 +27,10 @@ const LOOKS: [(Color, Dash, f64); 6] = [
     (palette::LIMIT, Dash::Dotted, 3.2),
 ];
 
-/// A path with the name of who found it.
+/// A path with the name of its planner.
 #[derive(Clone, Debug)]
 pub struct OverlayPath {
-    /// Who found it.
+    /// The planner.
     pub name: String,
     /// Its places, world coordinates.
     pub points: Vec<Point2>,
@@ -50,15 +50,15 @@ impl OverlayPath {
 /// Several paths on one map.
 #[derive(Clone, Debug)]
 pub struct Overlay<'a> {
-    /// What it shows.
+    /// The caption.
     pub caption: String,
     /// The map.
     pub map: &'a OccupancyGrid,
     /// The part of it that is shown, lowest and highest coordinate; all of it if none.
     pub window: Option<(Point2, Point2)>,
-    /// Who drives.
+    /// The vehicle.
     pub vehicle: &'a Vehicle,
-    /// Where from and where to.
+    /// Start and goal.
     pub ends: [Pose2; 2],
     /// The paths; those named last lie above.
     pub paths: Vec<OverlayPath>,
@@ -94,11 +94,7 @@ impl Overlay<'_> {
 }
 
 /// Curvature, steering and clearance along a path with the vehicle's limits.
-pub fn strips(
-    caption: &str,
-    (map, vehicle): (&OccupancyGrid, &Vehicle),
-    path: &CurvePath,
-) -> Figure {
+pub fn strips(caption: &str, map: &OccupancyGrid, vehicle: &Vehicle, path: &CurvePath) -> Figure {
     let (obstacles, body) = (ObstacleMap::new(map), Body::new(vehicle));
     let spacing_m = SPACING_M.min(path.length_m() / MIN_PLACES).max(1e-3);
     let samples = path.sample(spacing_m);
@@ -147,7 +143,7 @@ mod tests {
         assert!(two.svg.len() > one.figure().svg.len());
         let mut curve = CurvePath::new(start);
         curve.push(0.0, 5.0, Direction::Forward);
-        let figure = strips("Along it.", (&map, &vehicle), &curve);
+        let figure = strips("Along it.", &map, &vehicle, &curve);
         assert!(figure.svg.starts_with("<svg ") && !figure.svg.contains("NaN"));
     }
 }

@@ -1,10 +1,10 @@
-//! Where each parameter of a configuration comes from.
+//! The origin of each parameter of a configuration.
 
 use super::{Field, Table};
 use serde::Serialize;
 use serde_json::Value;
 
-/// Where a value comes from.
+/// The origin of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Source {
@@ -37,7 +37,7 @@ pub struct Parameter {
     pub key: String,
     /// Its value.
     pub value: String,
-    /// Where the value comes from.
+    /// The origin of the value.
     pub source: Source,
     /// The place in the paper, or the reason.
     pub note: String,
@@ -50,7 +50,7 @@ pub struct ParameterSheet {
     pub parameters: Vec<Parameter>,
 }
 
-/// What is known of a key, or of all keys that begin with it: `(key, source, note)`.
+/// The origin of a key, or of all keys that begin with it: `(key, source, note)`.
 pub type Known<'a> = (&'a str, Source, &'a str);
 
 impl ParameterSheet {

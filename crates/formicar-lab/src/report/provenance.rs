@@ -1,4 +1,4 @@
-//! Where numbers come from.
+//! The provenance of numbers.
 
 use xxhash_rust::xxh3::xxh3_128;
 

@@ -7,13 +7,13 @@ use super::Field;
 pub struct Table {
     /// A word that names it within its report.
     pub key: String,
-    /// What it shows; may be empty.
+    /// The caption; may be empty.
     pub caption: String,
     /// Names of the columns, of which the first names the rows.
     pub heading: Vec<String>,
     /// The rows.
     pub rows: Vec<Row>,
-    /// Whether a page shows the caption alone until a reader wants more; on paper all of it.
+    /// A page shows the caption alone until a reader unfolds the table; paper shows all of it.
     pub is_folded: bool,
 }
 

@@ -1,13 +1,13 @@
-//! How a claim fares.
+//! Verdicts on claims.
 
-/// What experiments say of a claim.
+/// The verdict of experiments on a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// All that was tested speaks for it.
+    /// All tests support it.
     Holds,
-    /// Some of it does.
+    /// Some tests support it.
     InPart,
-    /// None of it does.
+    /// No test supports it.
     Fails,
     /// Too few runs to tell.
     Undecided,

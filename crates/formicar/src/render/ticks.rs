@@ -29,7 +29,7 @@ pub(super) fn label(value: f64, step: f64) -> String {
     if value == 0.0 { "0".to_owned() } else { digits }
 }
 
-/// A length in metres with its unit.
+/// A length in meters with its unit.
 pub(super) fn length_label(length_m: f64) -> String {
     match length_m {
         km if km >= 1000.0 => format!("{} km", km / 1000.0),

@@ -59,11 +59,11 @@ pub(super) struct Case {
     pub(super) keep_out: &'static [[f64; 2]],
     /// Origin of the map, if not (0, 0, 0); start and goal move with it.
     pub(super) origin: Option<Pose2>,
-    /// What the run shows.
+    /// The point of the run.
     pub(super) about: &'static str,
-    /// Whether the request is known to have no path.
+    /// The request is known to have no path.
     pub(super) is_impossible: bool,
-    /// Whether a PNG is written, too.
+    /// A PNG is written, too.
     pub(super) has_png: bool,
 }
 

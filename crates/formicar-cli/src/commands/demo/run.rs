@@ -99,12 +99,12 @@ pub(super) fn status(answer: &Answer) -> String {
 }
 
 impl Done<'_> {
-    /// Whether there is a certified path.
+    /// Tells if there is a certified path.
     pub(super) fn is_found(&self) -> bool {
         self.answer.path.is_some()
     }
 
-    /// Whether there is a film of its ants.
+    /// Tells if there is a film of its ants.
     pub(super) fn has_film(&self) -> bool {
         self.film.is_some()
     }

@@ -58,7 +58,7 @@ pub(crate) fn run(args: &ReportArgs, out: &mut impl Write) -> Result<Ending, Fai
     let mut report = report(&title, &runs)?;
     report.sections.extend(paths);
     // Parameters are too long for a terminal.
-    let told = markdown(&report);
+    let summary = markdown(&report);
     report.sections.extend(parameters);
     let mut files = results::report_files(&report, &facts, &configs);
     files.push(("tables.tex".to_owned(), latex(&report)));
@@ -67,7 +67,7 @@ pub(crate) fn run(args: &ReportArgs, out: &mut impl Write) -> Result<Ending, Fai
     let logs = ompl_logs(&runs).into_iter();
     files.extend(logs.map(|log| (log_name(&log.name), log.to_text())));
     results::write_all(&args.out, &files)?;
-    write!(out, "{told}")?;
+    write!(out, "{summary}")?;
     let page = args.out.join("index.html");
     let n_runs = counted(runs.len(), "run");
     writeln!(out, "\n{n_runs}: see {}", page.display())?;
@@ -135,7 +135,7 @@ fn tell_apart(stores: &mut [(String, Stored)]) {
     }
 }
 
-/// Where the runs come from.
+/// The provenance of the runs.
 fn facts(stores: &[(String, Stored)]) -> Vec<Fact> {
     let mut facts = Vec::new();
     for (file, store) in stores {

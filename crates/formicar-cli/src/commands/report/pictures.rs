@@ -1,4 +1,4 @@
-//! Paths of stores on their maps, planner over planner, and what the first one's is like.
+//! Paths of stores on their maps, and strip charts along the first planner's path.
 
 use crate::commands::bench::Files;
 use formicar::geometry::Point2;
@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 
 /// Scenarios that are drawn at most: the first ones.
 const MOST_DRAWN: usize = 8;
-/// What is shown around the paths: a share of their extent, and so many metres.
+/// Margin around the paths: a share of their extent, and meters.
 const MARGIN: (f64, f64) = (0.06, 2.0);
 
 /// Paths of one scenario: the job of the first, and every planner's with the least seed.
@@ -88,7 +88,7 @@ fn draw(scene: &Scene, drawn: &LoadedScenario) -> Vec<Block> {
         "`{scenario}`: curvature, steering and clearance along the path of `{planner}`. Dashed \
          lines are the vehicle's limits."
     );
-    let along = strips(&caption, (&drawn.map, &drawn.vehicle), path);
+    let along = strips(&caption, &drawn.map, &drawn.vehicle, path);
     vec![Block::Figure(overlay.figure()), Block::Figure(along)]
 }
 

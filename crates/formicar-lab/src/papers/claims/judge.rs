@@ -1,4 +1,4 @@
-//! From comparisons to verdicts.
+//! Verdicts on claims, from comparisons and counts.
 
 use super::{Claim, Claims, Comparison, Counted, Evidence, Expected};
 use crate::analysis::statistics::{bootstrap_median, holm, quantile, vargha_delaney_a, wilcoxon};
@@ -10,7 +10,7 @@ const LEVEL: f64 = 0.05;
 /// With fewer counted runs nothing is said.
 const MIN_COUNTED: usize = 6;
 
-/// What a comparison or a count says of its claim.
+/// The vote of a comparison or a count on its claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Vote {
     For,
@@ -32,7 +32,7 @@ pub struct Tested<'a> {
     pub(crate) difference: Option<[f64; 3]>,
     pub(crate) p: Option<f64>,
     pub(crate) p_holm: Option<f64>,
-    /// How often the first has the larger value.
+    /// Probability that the first has the larger value.
     pub(crate) a: Option<f64>,
     pub(crate) vote: Vote,
 }
@@ -84,7 +84,7 @@ fn counts(claim: &Claim) -> &[Counted] {
     }
 }
 
-/// The probability of what is corrected by Holm; none of what is no signed-rank test.
+/// The probability of what is corrected by Holm; `None` for comparisons without a signed-rank test.
 fn p_of(comparison: &Comparison) -> Option<f64> {
     match comparison.expected {
         Expected::Same(_) => None,
@@ -113,7 +113,7 @@ impl<'a> Tested<'a> {
         let differences = comparison.differences();
         let vote = match comparison.expected {
             Expected::Same(share) => vote_of_sameness(comparison, share),
-            expected => vote_of_test(&differences, p_holm, (expected, n_tests)),
+            expected => vote_of_test(&differences, p_holm, expected, n_tests),
         };
         Self {
             comparison,
@@ -129,7 +129,7 @@ impl<'a> Tested<'a> {
     }
 }
 
-/// Whether so many pairs could pass the test at all: with all differences on one side the exact
+/// Tells if so many pairs could pass the test at all: with all differences on one side the exact
 /// probability is 2^(1 - n), which Holm multiplies by up to the number of tests.
 fn is_enough(n_pairs: usize, n_tests: usize) -> bool {
     let least = 0.5_f64.powi(n_pairs.min(1000) as i32 - 1);
@@ -139,7 +139,8 @@ fn is_enough(n_pairs: usize, n_tests: usize) -> bool {
 fn vote_of_test(
     differences: &[f64],
     p_holm: Option<f64>,
-    (expected, n_tests): (Expected, usize),
+    expected: Expected,
+    n_tests: usize,
 ) -> Vote {
     if !is_enough(differences.len(), n_tests) {
         return Vote::TooFew;
@@ -155,7 +156,7 @@ fn vote_of_test(
     }
 }
 
-/// Whether the sum of ranks of negative differences is the larger one.
+/// Tells if the sum of ranks of negative differences is the larger one.
 fn favors_less(differences: &[f64]) -> bool {
     let mut sorted: Vec<f64> = differences.iter().copied().filter(|d| *d != 0.0).collect();
     sorted.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
@@ -212,7 +213,7 @@ impl<'a> Judged<'a> {
         tests.chain(self.counts.iter().map(|count| count.1))
     }
 
-    /// How many are for, against, and open.
+    /// Votes for, against, and open.
     pub(crate) fn tally(&self) -> [usize; 3] {
         [Vote::For, Vote::Against, Vote::Open]
             .map(|kind| self.votes().filter(|vote| *vote == kind).count())
@@ -260,7 +261,7 @@ mod tests {
     }
 
     fn verdict(comparisons: Vec<Comparison>) -> Verdict {
-        let claims = Claims(vec![Claim::paired("less", ("", "-"), comparisons)]);
+        let claims = Claims(vec![Claim::paired("less", "", "-", comparisons)]);
         let judged = claims.judged();
         judged[0].verdict
     }
@@ -299,7 +300,7 @@ mod tests {
                 n,
                 of,
             };
-            Claims(vec![Claim::counted("all arrive", ("", "-"), vec![count])]).judged()[0].verdict
+            Claims(vec![Claim::counted("all arrive", "", "-", vec![count])]).judged()[0].verdict
         };
         assert_eq!(verdict(31, 31), Verdict::Holds);
         assert_eq!(verdict(20, 31), Verdict::InPart);
@@ -310,8 +311,8 @@ mod tests {
     #[test]
     fn holm_counts_all_comparisons_of_the_page() {
         let claims = Claims(vec![
-            Claim::paired("one", ("", "-"), vec![less(1.0)]),
-            Claim::paired("two", ("", "-"), vec![less(1.0), noise()]),
+            Claim::paired("one", "", "-", vec![less(1.0)]),
+            Claim::paired("two", "", "-", vec![less(1.0), noise()]),
         ]);
         let judged = claims.judged();
         let test = &judged[0].tests[0];

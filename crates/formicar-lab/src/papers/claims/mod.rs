@@ -1,4 +1,4 @@
-//! Claims of papers, and what our runs say of them.
+//! Claims of papers, tested by our runs.
 //!
 //! A claim is tested by comparisons of two methods with the same seeds, or by counting runs. A
 //! comparison speaks for the claim where the signed-rank test, corrected by Holm over all
@@ -10,7 +10,7 @@ mod section;
 
 pub use judge::{Judged, Tested};
 
-/// What a claim says of the first of two methods.
+/// The relation that a claim states between the first of two methods and the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Expected {
     /// It has less.
@@ -24,7 +24,7 @@ pub enum Expected {
 /// Two methods with the same seeds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// Who is compared with whom, and where.
+    /// The two methods, and the map.
     pub name: String,
     /// Quantity and unit.
     pub quantity: String,
@@ -32,22 +32,22 @@ pub struct Comparison {
     pub n_decimals: usize,
     /// A value of the first and one of the other per seed.
     pub pairs: Vec<[f64; 2]>,
-    /// What the claim says of the first.
+    /// The relation that the claim states.
     pub expected: Expected,
 }
 
 /// Runs that are as the claim says, of all runs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Counted {
-    /// What is counted, and where.
+    /// The property that is counted, and the map.
     pub name: String,
-    /// How many are as the claim says.
+    /// Runs that agree with the claim.
     pub n: usize,
-    /// Of how many.
+    /// All runs.
     pub of: usize,
 }
 
-/// What a claim is tested by.
+/// The evidence for or against a claim.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Evidence {
     /// Paired comparisons.
@@ -59,13 +59,13 @@ pub enum Evidence {
 /// A claim of a paper.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Claim {
-    /// What is claimed.
+    /// The claim in a sentence.
     pub words: String,
-    /// Where in the paper.
+    /// Its place in the paper.
     pub place: String,
     /// The paper's numbers; a dash where it gives none.
     pub paper: String,
-    /// What it is tested by.
+    /// The evidence.
     pub evidence: Evidence,
 }
 
@@ -77,18 +77,19 @@ impl Claim {
     /// A claim that comparisons test.
     pub(crate) fn paired(
         words: &str,
-        (place, paper): (&str, &str),
+        place: &str,
+        paper: &str,
         comparisons: Vec<Comparison>,
     ) -> Self {
-        Self::new(words, (place, paper), Evidence::Paired(comparisons))
+        Self::new(words, place, paper, Evidence::Paired(comparisons))
     }
 
     /// A claim that counts test.
-    pub(crate) fn counted(words: &str, (place, paper): (&str, &str), counts: Vec<Counted>) -> Self {
-        Self::new(words, (place, paper), Evidence::Counted(counts))
+    pub(crate) fn counted(words: &str, place: &str, paper: &str, counts: Vec<Counted>) -> Self {
+        Self::new(words, place, paper, Evidence::Counted(counts))
     }
 
-    fn new(words: &str, (place, paper): (&str, &str), evidence: Evidence) -> Self {
+    fn new(words: &str, place: &str, paper: &str, evidence: Evidence) -> Self {
         Self {
             words: words.to_owned(),
             place: place.to_owned(),

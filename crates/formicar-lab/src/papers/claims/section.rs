@@ -195,10 +195,11 @@ mod tests {
         let claims = Claims(vec![
             Claim::paired(
                 "shorter",
-                ("sec. 5", "1 : 2"),
+                "sec. 5",
+                "1 : 2",
                 vec![comparison("a"), comparison("b")],
             ),
-            Claim::counted("arrives", ("sec. 6", "-"), vec![count]),
+            Claim::counted("arrives", "sec. 6", "-", vec![count]),
         ]);
         let (verdicts, tests) = (claims.verdicts(), claims.tests());
         let Block::Table(verdicts) = &verdicts.blocks[0] else {

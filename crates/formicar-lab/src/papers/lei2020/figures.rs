@@ -2,7 +2,7 @@
 
 use super::variants::{CONVENTIONAL, IMPROVED, variants};
 use super::{COLONIES, MAPS, Map};
-use crate::papers::exhibit::{Exhibit, Line, overlay, strips_of};
+use crate::papers::drawn_run::{DrawnRun, Line, overlay, strips_of};
 use crate::papers::experiment::{Ground, Variant};
 use crate::papers::trial::{Moment, Trial};
 use crate::papers::trials::Runs;
@@ -26,7 +26,7 @@ fn named(ground: &Ground, name: &str) -> Result<Variant> {
     found.with_context(|| format!("there is no variant {name}"))
 }
 
-fn drawn(caption: &str, scene: Scene) -> Block {
+fn scene_block(caption: &str, scene: Scene) -> Block {
     let picture = Picture {
         scene: Some(scene),
         ..Picture::default()
@@ -34,7 +34,7 @@ fn drawn(caption: &str, scene: Scene) -> Block {
     Block::Figure(Figure::new(caption, &picture))
 }
 
-fn charted(caption: &str, charts: Vec<Chart>) -> Block {
+fn chart_block(caption: &str, charts: Vec<Chart>) -> Block {
     let picture = Picture {
         charts,
         ..Picture::default()
@@ -53,8 +53,8 @@ fn scene(ground: &Ground) -> Scene {
 pub(super) fn layers(grounds: &[Ground]) -> Result<Section> {
     let mut blocks = Vec::new();
     for ground in grounds {
-        let exhibit = Exhibit::new(ground, &named(ground, IMPROVED)?)?;
-        let Some(layers) = &exhibit.outcome.stages().layers else {
+        let drawn = DrawnRun::new(ground, &named(ground, IMPROVED)?)?;
+        let Some(layers) = &drawn.outcome.stages().layers else {
             continue;
         };
         let mut scene = scene(ground);
@@ -68,7 +68,7 @@ pub(super) fn layers(grounds: &[Ground]) -> Result<Section> {
             layers.expanded.count(),
             layers.closed.count()
         );
-        blocks.push(drawn(&caption, scene));
+        blocks.push(scene_block(&caption, scene));
     }
     Ok(Section::new(
         "Obstacle expansion and U-shapes: figures 2 and 3",
@@ -97,9 +97,9 @@ fn gradient(ground: &Ground) -> Result<Block> {
         c.colony.evaporation = Evaporation::Constant(Constant { rho: 0.0 });
         c.colony.deposit = Deposit::AllAnts(AllAnts { q: 1e-6 });
     });
-    let exhibit = Exhibit::new(ground, &variant)?;
+    let drawn = DrawnRun::new(ground, &variant)?;
     let mut scene = Scene::new(&ground.grid);
-    if let Some(run) = &exhibit.outcome.stages().colony {
+    if let Some(run) = &drawn.outcome.stages().colony {
         scene.heat_map(&run.pheromone, "pheromone, units");
     }
     let ends = [ground.request.start, ground.request.goal].map(Pose2::position);
@@ -113,7 +113,7 @@ fn gradient(ground: &Ground) -> Result<Block> {
     let caption = "Figure 4: pheromone before the first generation, twice as much on the line from \
                    start to goal as in the farthest corner. The paper gives the gradient as a \
                    picture; its ends, 1 and 2, are a reading.";
-    Ok(drawn(caption, scene))
+    Ok(scene_block(caption, scene))
 }
 
 fn evaporation() -> Block {
@@ -164,7 +164,7 @@ fn evaporation() -> Block {
         height_px: 260.0,
         ..Chart::default()
     };
-    charted(
+    chart_block(
         "Figure 5: evaporation over the generations (lambda = 10, A = -5, B = 0.9). To the letter \
          the trough lies at generations 9 and 10; the figure's text puts it in the middle of the \
          run, as the stretched form does. The constant is what the conventional colony has.",
@@ -175,8 +175,8 @@ fn evaporation() -> Block {
 /// Figure 9.
 pub(super) fn nodes(grounds: &[Ground], runs: Runs) -> Result<Section> {
     let ground = &grounds[0];
-    let exhibit = Exhibit::new(ground, &named(ground, IMPROVED)?)?;
-    let stages = exhibit.outcome.stages();
+    let drawn = DrawnRun::new(ground, &named(ground, IMPROVED)?)?;
+    let stages = drawn.outcome.stages();
     let mut blocks = vec![Block::Table(node_table(runs))];
     if let Some(path) = &stages.grid_path {
         let mut scene = scene(ground);
@@ -189,7 +189,7 @@ pub(super) fn nodes(grounds: &[Ground], runs: Runs) -> Result<Section> {
             path.cells.len(),
             stages.nodes.len()
         );
-        blocks.push(drawn(&caption, scene));
+        blocks.push(scene_block(&caption, scene));
     }
     Ok(Section::new("Redundant nodes: figure 9", blocks))
 }
@@ -218,24 +218,25 @@ fn node_table(runs: Runs) -> Table {
 
 /// Figures 10, 12 and 13.
 pub(super) fn paths(map: &Map, ground: &Ground) -> Result<Section> {
-    let exhibits: Result<Vec<Exhibit>> = COLONIES
+    let drawn_runs: Result<Vec<DrawnRun>> = COLONIES
         .iter()
-        .map(|name| Exhibit::new(ground, &named(ground, name)?))
+        .map(|name| DrawnRun::new(ground, &named(ground, name)?))
         .collect();
-    let exhibits = exhibits?;
+    let drawn_runs = drawn_runs?;
     let caption = format!(
         "Figure {} on `{}`, seed 0: the ants' ways of the three colonies from cell to cell.",
         map.figure, map.name
     );
-    let cells = overlay(ground, (&exhibits, Line::Cells), &caption);
-    let last = &exhibits[exhibits.len() - 1];
+    let cells = overlay(ground, &drawn_runs, Line::Cells, &caption);
+    let last = &drawn_runs[drawn_runs.len() - 1];
     let what = match last.outcome.judged() {
         Some(_) => "the path of the improved colony after its corners are rounded",
         None => "the way of the improved colony, of which a corner leaves no room to be rounded",
     };
     let caption = format!("Figure {} on `{}`, seed 0: {what}.", map.figure, map.name);
-    let smooth = overlay(ground, (std::slice::from_ref(last), Line::Curve), &caption);
-    let strips = strips_of(ground, last);
+    let smooth = overlay(ground, std::slice::from_ref(last), Line::Curve, &caption);
+    let judged = last.outcome.judged();
+    let strips = judged.map(|(path, report)| strips_of(ground, &last.variant, path, report));
     let figures = [cells, smooth].into_iter().chain(strips);
     Ok(Section::new(
         format!("Paths on {}: figure {}", map.name, map.figure),
@@ -252,7 +253,7 @@ pub(super) fn convergence(runs: Runs) -> Section {
         let run = runs.of(MAPS[0].name, name).next();
         generations(name, run.map_or(&[], |run| &run.moments))
     });
-    let mut blocks = vec![charted(caption, charts.to_vec())];
+    let mut blocks = vec![chart_block(caption, charts.to_vec())];
     for map in &MAPS {
         let caption = format!(
             "`{}`: length of the best way so far, medians and quartiles over the seeds, by \

@@ -1,4 +1,4 @@
-//! Lei & Zheng 2020: what each part of the method brings, on three maps.
+//! Lei & Zheng 2020: the effect of each part of the method, on three maps.
 
 mod claims;
 mod figures;
@@ -51,14 +51,14 @@ const COLONIES: [&str; 3] = [CONVENTIONAL, ELITE, IMPROVED];
 /// Runs conventional, elitist and improved colonies, and the improved one less each of its parts.
 ///
 /// # Errors
-/// None that is expected: maps and configurations are built in.
-pub fn lei2020(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproduction> {
+/// No error is expected: maps and configurations are built in.
+pub fn lei2020(setup: &Setup, report_progress: &mut dyn FnMut(&str)) -> Result<Reproduction> {
     let grounds = MAPS.map(|map| Ground::builtin(map.name));
     let grounds = grounds.into_iter().collect::<Result<Vec<_>>>()?;
-    let runs = run_all(&grounds, variants, setup, tell)?;
-    tell("figures");
+    let runs = run_all(&grounds, variants, setup, report_progress)?;
+    report_progress("figures");
     let report = report(&grounds, Runs(&runs))?;
-    Reproduction::of_runs(report, &runs, (&grounds, variants), setup)
+    Reproduction::of_runs(report, &runs, &grounds, variants, setup)
 }
 
 fn report(grounds: &[Ground], runs: Runs) -> Result<Report> {

@@ -89,7 +89,7 @@ const MEASURES: [(&str, Quantity<Drive>); 4] = [
 /// The tables of the runs of some variants, the first of which the others are compared with.
 pub(super) fn section(drives: &[Drive], variants: &[Variant]) -> Section {
     let measures = MEASURES.iter().filter(|_| variants.len() > 1);
-    let paired = measures.map(|(key, quantity)| paired(drives, variants, (key, quantity)));
+    let paired = measures.map(|(key, quantity)| paired(drives, variants, key, quantity));
     let tables = [outcomes(drives, variants)].into_iter().chain(paired);
     Section::new(
         format!("What each term of {PROPOSED} brings"),
@@ -120,11 +120,7 @@ fn outcomes(drives: &[Drive], variants: &[Variant]) -> Table {
 }
 
 /// Differences of variants to the first, seed by seed.
-fn paired(
-    drives: &[Drive],
-    variants: &[Variant],
-    (key, quantity): (&str, &Quantity<Drive>),
-) -> Table {
+fn paired(drives: &[Drive], variants: &[Variant], key: &str, quantity: &Quantity<Drive>) -> Table {
     let caption = format!(
         "Differences to the first, seed by seed, in {}: median with its 95 % interval (percentile \
          bootstrap, seed 0), probability of the signed-rank test (two-sided, exact up to 50 \
@@ -141,11 +137,12 @@ fn paired(
     let first = group(first);
     let compare = |variant: &Variant| {
         let name = variant.name.clone();
-        group(variant).compare(&first, quantity, (name, Expected::Less))
+        group(variant).compare(&first, quantity, name, Expected::Less)
     };
     let claims = Claims(vec![Claim::paired(
         "Each is less than the first",
-        ("", "-"),
+        "",
+        "-",
         others.iter().map(compare).collect(),
     )]);
     for test in &claims.judged()[0].tests {

@@ -4,6 +4,7 @@ use super::methods::Native;
 use super::native;
 use super::turns::Turns;
 use crate::papers::experiment::{Ground, Variant};
+use crate::run::measure;
 use anyhow::Result;
 use formicar::geometry::Point2;
 use formicar::map::BitGrid;
@@ -12,14 +13,12 @@ use formicar::numeric::Seed;
 use formicar::objective::{SteeredLine, SteeringCost};
 use formicar::path::CurvePath;
 use formicar::planner::{Outcome, Planner};
-use formicar::progress::{Event, Observer};
 use formicar::scenario::StartHeading;
 use formicar::validation::Report;
 use formicar::vehicle::SuspensionParameters;
 use serde::Serialize;
-use std::time::{Duration, Instant};
 
-/// Spacing of the coarser measure of turns, metres; the finer is the size of a cell.
+/// Spacing of the coarser measure of turns, meters; the finer is the size of a cell.
 const COARSE_M: f64 = 1.0;
 
 /// A method on a ground, ready to run.
@@ -78,62 +77,46 @@ pub(super) struct Drive {
     pub(super) largest_steering_ratio: Option<f64>,
 }
 
-/// What a run left to be drawn.
+/// The parts of a run that are drawn.
 #[derive(Clone, Debug)]
-pub(super) struct Exhibit {
+pub(super) struct DrawnRun {
     pub(super) method: String,
     pub(super) certified: bool,
     pub(super) native: Vec<Point2>,
     pub(super) judged: Option<(CurvePath, Report)>,
-    /// Where no ant could go.
+    /// Cells that no ant could enter.
     pub(super) blocked: Option<BitGrid>,
-}
-
-/// Notes when the first path was certified.
-struct FirstPath {
-    begun: Instant,
-    after: Option<Duration>,
-}
-
-impl Observer for FirstPath {
-    fn on_event(&mut self, event: &Event) {
-        if let Event::Improved { .. } = event {
-            self.after.get_or_insert(self.begun.elapsed());
-        }
-    }
-
-    fn elapsed(&mut self) -> Option<Duration> {
-        Some(self.begun.elapsed())
-    }
 }
 
 impl Job<'_> {
     /// Runs with a seed: map set-up, query and judge.
-    pub(super) fn run(&self, seed: u64) -> Result<(Drive, Exhibit)> {
+    pub(super) fn run(&self, seed: u64) -> Result<(Drive, DrawnRun)> {
         let (ground, config) = (self.ground, self.variant.config.clone());
-        let begun = Instant::now();
-        let mut watch = FirstPath { begun, after: None };
-        let mut planner = Planner::new(&ground.grid, ground.vehicle.clone(), config)?;
-        let map_setup = begun.elapsed();
-        let outcome = planner.plan(&ground.request, Seed(seed), &mut watch)?;
-        let total = begun.elapsed();
-        let [setup_ms, total_ms] = [map_setup, total].map(milliseconds);
-        let exhibit = self.exhibit(&outcome);
+        let setup = measure(&mut (), |_| {
+            Planner::new(&ground.grid, ground.vehicle.clone(), config)
+        });
+        let mut planner = setup.answer?;
+        let query = measure(&mut (), |observer| {
+            planner.plan(&ground.request, Seed(seed), observer)
+        });
+        let first_s = query.first_feasible_s();
+        let outcome = query.answer?;
+        let drawn = self.drawn(&outcome);
         let mut drive = Drive {
             part: self.part.to_owned(),
             method: self.variant.name.clone(),
             ground: ground.map.clone(),
             seed,
             status: outcome.status().name().to_owned(),
-            certified: exhibit.certified,
+            certified: drawn.certified,
             shortest_m: self.shortest_m,
-            total_ms,
-            map_setup_ms: setup_ms,
-            query_ms: total_ms - setup_ms,
-            first_feasible_ms: watch.after.map(milliseconds),
+            total_ms: 1e3 * (setup.query_s + query.query_s),
+            map_setup_ms: 1e3 * setup.query_s,
+            query_ms: 1e3 * query.query_s,
+            first_feasible_ms: first_s.map(|first_s| 1e3 * (setup.query_s + first_s)),
             ..Drive::default()
         };
-        self.measure_native(&mut drive, &exhibit.native)?;
+        self.measure_native(&mut drive, &drawn.native)?;
         let pruned = native::nodes(ground, outcome.stages());
         drive.n_pruned_vertices = (!pruned.is_empty()).then_some(pruned.len());
         [
@@ -142,11 +125,11 @@ impl Job<'_> {
             drive.pruned_over_10_deg,
         ] = shares(Turns::of_polyline(&pruned));
         measure_curve(&mut drive, &outcome);
-        Ok((drive, exhibit))
+        Ok((drive, drawn))
     }
 
-    fn exhibit(&self, outcome: &Outcome) -> Exhibit {
-        Exhibit {
+    fn drawn(&self, outcome: &Outcome) -> DrawnRun {
+        DrawnRun {
             method: self.variant.name.clone(),
             certified: matches!(outcome, Outcome::Found(_)),
             native: native::polyline(self.native, self.ground, outcome),
@@ -228,8 +211,4 @@ fn measure_curve(drive: &mut Drive, outcome: &Outcome) {
 
 fn shares(turns: Option<Turns>) -> [Option<f64>; 3] {
     turns.map_or([None; 3], |turns| turns.shares.map(Some))
-}
-
-fn milliseconds(duration: Duration) -> f64 {
-    duration.as_secs_f64() * 1e3
 }

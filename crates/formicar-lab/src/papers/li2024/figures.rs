@@ -1,29 +1,27 @@
 //! Paths on the map (Li 2024, figures 5 to 11).
 
-use super::drive::Exhibit;
+use super::drive::DrawnRun;
 use crate::papers::experiment::Ground;
 use crate::report::Figure;
 use formicar::geometry::{Point2, Pose2};
 use formicar::render::{Dash, LineStyle, Picture, PoseMark, Scene, palette};
 use formicar::validation::{Report, ViolationKind};
 
-/// Half the size of a mark of a collision, metres.
+/// Half the size of a mark of a collision, meters.
 const MARK_M: f64 = 1.2;
-/// Marks closer than this are one, metres.
+/// Marks closer than this are one, meters.
 const APART_M: f64 = 1.0;
 
-/// Ground around the paths that is shown, metres.
+/// Ground around the paths that is shown, meters.
 const MARGIN_M: f64 = 6.0;
 
 /// The part of the map that holds the paths of all methods.
-pub(super) fn surroundings(ground: &Ground, exhibits: &[Exhibit]) -> (Point2, Point2) {
+pub(super) fn surroundings(ground: &Ground, drawn_runs: &[DrawnRun]) -> (Point2, Point2) {
     let ends = [ground.request.start, ground.request.goal].map(Pose2::position);
-    let natives = exhibits
+    let natives = drawn_runs
         .iter()
-        .flat_map(|exhibit| exhibit.native.iter().copied());
-    let judged = exhibits
-        .iter()
-        .filter_map(|exhibit| exhibit.judged.as_ref());
+        .flat_map(|drawn| drawn.native.iter().copied());
+    let judged = drawn_runs.iter().filter_map(|drawn| drawn.judged.as_ref());
     let curves = judged.flat_map(|(path, _)| path.sample(1.0));
     let curves = curves.map(|sample| sample.pose.position());
     let points = ends.into_iter().chain(natives).chain(curves);
@@ -37,45 +35,38 @@ pub(super) fn surroundings(ground: &Ground, exhibits: &[Exhibit]) -> (Point2, Po
 
 /// A method's path in a part of the map: the polyline before corners are rounded, the curve that
 /// was judged, and the places where the judge refused it.
-pub(super) fn path_figure(
-    ground: &Ground,
-    exhibit: &Exhibit,
-    (low, high): (Point2, Point2),
-) -> Figure {
-    let mut scene = Scene::window(&ground.grid, low, high);
-    let places = exhibit
+pub(super) fn path_figure(ground: &Ground, drawn: &DrawnRun, part: (Point2, Point2)) -> Figure {
+    let mut scene = Scene::window(&ground.grid, part.0, part.1);
+    let places = drawn
         .judged
         .as_ref()
         .map_or(Vec::new(), |(_, report)| refused_at(report));
-    if let Some((path, _)) = &exhibit.judged {
+    if let Some((path, _)) = &drawn.judged {
         scene.curve(path);
     }
-    if !exhibit.native.is_empty() {
-        scene.polyline(&exhibit.native, &line("before rounding", 1.2));
+    if !drawn.native.is_empty() {
+        scene.polyline(&drawn.native, &line("before rounding", 1.2));
     }
     scene.pose(ground.request.start, &ground.vehicle, PoseMark::Start);
     scene.pose(ground.request.goal, &ground.vehicle, PoseMark::Goal);
     for (i, &place) in places.iter().enumerate() {
         cross(&mut scene, place, if i == 0 { "refused here" } else { "" });
     }
-    let verdict = verdict(exhibit, places.len());
+    let verdict = verdict(drawn, places.len());
     let picture = Picture {
-        title: exhibit.method.clone(),
+        title: drawn.method.clone(),
         caption: verdict.clone(),
         scene: Some(scene),
         ..Picture::default()
     };
-    let caption = format!(
-        "`{}` on `{}`, seed 0: {verdict}.",
-        exhibit.method, ground.map
-    );
+    let caption = format!("`{}` on `{}`, seed 0: {verdict}.", drawn.method, ground.map);
     Figure::new(&caption, &picture)
 }
 
-fn verdict(exhibit: &Exhibit, n_places: usize) -> String {
-    match &exhibit.judged {
+fn verdict(drawn: &DrawnRun, n_places: usize) -> String {
+    match &drawn.judged {
         None => "no path".to_owned(),
-        Some((path, report)) if exhibit.certified => format!(
+        Some((path, report)) if drawn.certified => format!(
             "certified, {:.2} m, clearance {:.3} m",
             path.length_m(),
             report.min_clearance_m
@@ -94,7 +85,7 @@ fn verdict(exhibit: &Exhibit, n_places: usize) -> String {
     }
 }
 
-/// Where a path cannot be driven.
+/// Places where a path cannot be driven.
 fn refused_at(report: &Report) -> Vec<Point2> {
     let mut places: Vec<Point2> = Vec::new();
     let is_seen = |kind| kind != ViolationKind::Malformed;

@@ -1,6 +1,6 @@
 //! Mean and lowest cost J by generation (Li 2024, figure 12).
 
-use super::drive::{Exhibit, Job};
+use super::drive::{DrawnRun, Job};
 use super::methods::Generations;
 use crate::analysis::statistics::quartiles;
 use crate::report::{Trend, TrendPanel, Trends};
@@ -46,10 +46,10 @@ enum Source<'a> {
 pub(super) fn watch(
     job: Job,
     kind: Generations,
-    exhibit: &Exhibit,
+    drawn: &DrawnRun,
     n_seeds: u64,
 ) -> Result<Option<CostHistory>> {
-    let source = match (kind, &exhibit.blocked) {
+    let source = match (kind, &drawn.blocked) {
         (Generations::Record, _) => Source::Record,
         (Generations::Ways, Some(blocked)) => Source::Ways {
             job,
@@ -128,7 +128,7 @@ impl Source<'_> {
             _ => return None,
         };
         let costs = match (self, ways) {
-            (Self::Ways { job, blocked, rule }, Some(ways)) => of_ways(job, ways, (blocked, *rule)),
+            (Self::Ways { job, blocked, rule }, Some(ways)) => of_ways(job, ways, blocked, *rule),
             _ => [record.mean_cost, record.best_cost],
         };
         Some((record, costs))
@@ -136,7 +136,7 @@ impl Source<'_> {
 }
 
 /// Mean and least J of the ways that arrived, without their redundant nodes.
-fn of_ways(job: &Job, ways: &AntWays, (blocked, rule): (&BitGrid, DiagonalRule)) -> Generation {
+fn of_ways(job: &Job, ways: &AntWays, blocked: &BitGrid, rule: DiagonalRule) -> Generation {
     let frame = job.ground.grid.frame();
     let cost = |ant: usize| {
         let nodes = RedundantNodes::Remove.apply(blocked, rule, &ways.way(ant));

@@ -1,4 +1,4 @@
-//! Where the methods drive: start heading exact, goal heading any.
+//! Grounds of the methods: start heading exact, goal heading any.
 
 use crate::papers::experiment::{Ground, Setup};
 use anyhow::{Context, Result};
@@ -14,7 +14,7 @@ use std::path::PathBuf;
 
 /// The generated neighborhood with the route of the paper's length.
 const MAP: &str = "li-neighborhood";
-/// Length of the paper's route, metres.
+/// Length of the paper's route, meters.
 const ROUTE_M: f64 = 92.0;
 /// The ten scenarios of a neighborhood of the same size, within the folder of data sets.
 const HOOD: [&str; 2] = ["car", "hood_800x500.json"];
@@ -34,8 +34,8 @@ pub(super) fn neighborhood() -> Result<Ground> {
     })
 }
 
-/// The scenarios of the data set; none, and where they were looked for, if they are not there. Of
-/// a small setup the one whose route is nearest to the paper's.
+/// The scenarios of the data set, or the path of the missing file. A small setup takes the one
+/// whose route is nearest to the paper's.
 pub(super) fn hood(setup: &Setup) -> Result<Result<Vec<Ground>, PathBuf>> {
     let path = HOOD
         .iter()
@@ -65,7 +65,7 @@ pub(super) fn hood(setup: &Setup) -> Result<Result<Vec<Ground>, PathBuf>> {
 }
 
 /// Length of the shortest way over cells that are half the vehicle's width or more from obstacles;
-/// none where there is no such way.
+/// `None` where there is no such way.
 pub(super) fn shortest_m(ground: &Ground) -> Option<f64> {
     let obstacles = ObstacleMap::new(&ground.grid);
     let frame = ground.grid.frame();

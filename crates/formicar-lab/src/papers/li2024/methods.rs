@@ -2,13 +2,13 @@
 
 use formicar::planner::PlannerName;
 
-/// A planner, and how it is measured.
+/// A planner, and the way it is measured.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Method {
     pub(super) planner: PlannerName,
-    /// What its path was before it was made drivable.
+    /// The vertices of its path before it is made drivable.
     pub(super) native: Native,
-    /// What it has by generation.
+    /// The source of its costs by generation.
     pub(super) generations: Generations,
 }
 
@@ -33,7 +33,7 @@ impl Native {
     }
 }
 
-/// Where the cost J of a generation is found.
+/// The source of the cost J of a generation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Generations {
     /// There are no generations.

@@ -24,7 +24,7 @@ use crate::report::{Block, Fact, Report, Section};
 use crate::run::pool;
 use ablation::ABLATION;
 use anyhow::Result;
-use drive::{Drive, Exhibit, Job};
+use drive::{DrawnRun, Drive, Job};
 use generations::CostHistory;
 use grounds::{hood, neighborhood, shortest_m};
 use methods::{Method, Native, methods};
@@ -38,7 +38,7 @@ const HOOD: &str = "hood";
 ///
 /// # Errors
 /// Files of the data set that cannot be read.
-pub fn li2024(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproduction> {
+pub fn li2024(setup: &Setup, report_progress: &mut dyn FnMut(&str)) -> Result<Reproduction> {
     let plan = Plan {
         methods: methods(),
         ablation: ablation::variants(),
@@ -47,47 +47,47 @@ pub fn li2024(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproduction>
         scale: setup.scale,
         n_jobs: setup.n_jobs,
     };
-    plan.run(tell)
+    plan.run(report_progress)
 }
 
-/// What is run.
+/// The runs to be made.
 struct Plan {
     methods: Vec<Method>,
     ablation: Vec<Variant>,
     ground: Ground,
-    /// The scenarios of the data set, or where they were looked for.
+    /// The scenarios of the data set, or the path of the missing file.
     hood: Result<Vec<Ground>, std::path::PathBuf>,
     scale: Scale,
     /// Runs at a time.
     n_jobs: usize,
 }
 
-/// What was found.
+/// The results of the runs.
 #[derive(Default)]
 struct Findings {
     drives: Vec<Drive>,
-    exhibits: Vec<Exhibit>,
+    drawn_runs: Vec<DrawnRun>,
     cost_histories: Vec<CostHistory>,
     /// Grounds of the scaling experiment.
     grown: Vec<Ground>,
 }
 
 impl Plan {
-    fn run(&self, tell: &mut dyn FnMut(&str)) -> Result<Reproduction> {
+    fn run(&self, report_progress: &mut dyn FnMut(&str)) -> Result<Reproduction> {
         let mut findings = Findings::default();
-        self.compare(&mut findings, tell)?;
+        self.compare(&mut findings, report_progress)?;
         for ground in self.hood.iter().flatten() {
             for method in &self.methods {
                 let variant = Variant::of(method.planner);
-                let job = job(HOOD, (ground, shortest_m(ground)), &variant, method.native);
-                tell(&format!("{}: {}", ground.map, variant.name));
+                let job = job(HOOD, ground, shortest_m(ground), &variant, method.native);
+                report_progress(&format!("{}: {}", ground.map, variant.name));
                 let runs = self.runs(&job, self.scale.n_runs)?;
                 findings.drives.extend(runs.into_iter().map(|run| run.0));
             }
         }
-        self.switch_terms_off(&mut findings, tell)?;
+        self.switch_terms_off(&mut findings, report_progress)?;
         if let Some(method) = scaling::subject(&self.methods) {
-            let (drives, grounds) = scaling::run(method, self.scale, tell)?;
+            let (drives, grounds) = scaling::run(method, self.scale, report_progress)?;
             findings.drives.extend(drives);
             findings.grown = grounds;
         }
@@ -95,41 +95,49 @@ impl Plan {
     }
 
     /// Runs of a job with the seeds from 0 on.
-    fn runs(&self, job: &Job, n_seeds: u64) -> Result<Vec<(Drive, Exhibit)>> {
+    fn runs(&self, job: &Job, n_seeds: u64) -> Result<Vec<(Drive, DrawnRun)>> {
         pool::map(self.n_jobs, n_seeds as usize, |seed| job.run(seed as u64))
     }
 
     /// All methods on the built-in neighborhood: timed, then watched by generation.
-    fn compare(&self, findings: &mut Findings, tell: &mut dyn FnMut(&str)) -> Result<()> {
-        let route = (&self.ground, shortest_m(&self.ground));
+    fn compare(
+        &self,
+        findings: &mut Findings,
+        report_progress: &mut dyn FnMut(&str),
+    ) -> Result<()> {
+        let (ground, shortest_m) = (&self.ground, shortest_m(&self.ground));
         for method in &self.methods {
             let variant = Variant::of(method.planner);
-            let job = job(COMPARISON, route, &variant, method.native);
-            tell(&format!("{}: {}", self.ground.map, variant.name));
+            let job = job(COMPARISON, ground, shortest_m, &variant, method.native);
+            report_progress(&format!("{}: {}", self.ground.map, variant.name));
             let mut first = None;
-            for (drive, exhibit) in self.runs(&job, self.scale.n_seeds)? {
+            for (drive, drawn) in self.runs(&job, self.scale.n_seeds)? {
                 findings.drives.push(drive);
-                first.get_or_insert(exhibit);
+                first.get_or_insert(drawn);
             }
-            let Some(exhibit) = first else {
+            let Some(drawn) = first else {
                 continue;
             };
-            tell(&format!(
+            report_progress(&format!(
                 "{}: {}, by generation",
                 self.ground.map, variant.name
             ));
-            let history = generations::watch(job, method.generations, &exhibit, self.scale.n_runs)?;
+            let history = generations::watch(job, method.generations, &drawn, self.scale.n_runs)?;
             findings.cost_histories.extend(history);
-            findings.exhibits.push(exhibit);
+            findings.drawn_runs.push(drawn);
         }
         Ok(())
     }
 
-    fn switch_terms_off(&self, findings: &mut Findings, tell: &mut dyn FnMut(&str)) -> Result<()> {
-        let route = (&self.ground, shortest_m(&self.ground));
+    fn switch_terms_off(
+        &self,
+        findings: &mut Findings,
+        report_progress: &mut dyn FnMut(&str),
+    ) -> Result<()> {
+        let (ground, shortest_m) = (&self.ground, shortest_m(&self.ground));
         for variant in &self.ablation {
-            tell(&format!("{}: {}", self.ground.map, variant.name));
-            let job = job(ABLATION, route, variant, Native::Nodes);
+            report_progress(&format!("{}: {}", self.ground.map, variant.name));
+            let job = job(ABLATION, ground, shortest_m, variant, Native::Nodes);
             let runs = self.runs(&job, self.scale.n_seeds)?;
             findings.drives.extend(runs.into_iter().map(|run| run.0));
         }
@@ -147,8 +155,7 @@ impl Plan {
         Ok(Reproduction {
             report: self.report(findings)?,
             csv: csv(&findings.drives)?,
-            courses_csv: String::new(),
-            ompl_logs: Vec::new(),
+
             n_runs: findings.drives.len(),
             facts: [
                 facts_of(std::slice::from_ref(&self.ground)),
@@ -158,6 +165,7 @@ impl Plan {
             ]
             .concat(),
             configs: configs_of(of_methods.map(|variant| (&self.ground, variant)))?,
+            ..Reproduction::default()
         })
     }
 
@@ -229,7 +237,7 @@ impl Plan {
         )
     }
 
-    /// What concerns the proposed method alone; nothing if this build does not know it.
+    /// Sections on the proposed method alone; none if this build does not know it.
     fn of_proposed(&self, findings: &Findings) -> Vec<Section> {
         let Some(subject) = scaling::subject(&self.methods) else {
             return Vec::new();
@@ -256,11 +264,11 @@ impl Plan {
     }
 
     fn figures(&self, findings: &Findings) -> Vec<Section> {
-        let part = figures::surroundings(&self.ground, &findings.exhibits);
-        let paths = findings.exhibits.iter();
-        let paths = paths.map(|exhibit| figures::path_figure(&self.ground, exhibit, part));
+        let part = figures::surroundings(&self.ground, &findings.drawn_runs);
+        let paths = findings.drawn_runs.iter();
+        let paths = paths.map(|drawn| figures::path_figure(&self.ground, drawn, part));
         let mut sections = vec![
-            pictures::map(&self.ground, &findings.exhibits, part),
+            pictures::map(&self.ground, &findings.drawn_runs, part),
             Section::new("Paths: figures 5 to 11", paths.map(Block::Figure).collect()),
         ];
         let histories = &findings.cost_histories;
@@ -277,7 +285,8 @@ impl Plan {
 
 fn job<'a>(
     part: &'static str,
-    (ground, shortest_m): (&'a Ground, Option<f64>),
+    ground: &'a Ground,
+    shortest_m: Option<f64>,
     variant: &'a Variant,
     native: Native,
 ) -> Job<'a> {

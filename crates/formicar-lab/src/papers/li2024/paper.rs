@@ -1,4 +1,4 @@
-//! What the paper states (Li et al. 2024, Tables 1 and 2; MATLAB on an i7-6500U).
+//! The numbers of the paper (Li et al. 2024, Tables 1 and 2; MATLAB on an i7-6500U).
 
 /// A row of both tables.
 #[derive(Clone, Copy, Debug)]
@@ -36,7 +36,7 @@ const fn row(method: &'static str, one: [f64; 3], shares_percent: [f64; 3]) -> S
     }
 }
 
-/// What the paper states of a method, by our name of it.
+/// The paper's numbers for a method, by our name of it.
 pub(super) fn stated(method: &str) -> Option<&'static Stated> {
     TABLES.iter().find(|row| row.method == method)
 }

@@ -1,19 +1,20 @@
 //! All methods in one picture.
 
 use super::claims::{DRIVEN, LENGTH, STEP, TIME};
-use super::drive::{Drive, Exhibit};
+use super::drive::{DrawnRun, Drive};
 use super::group::drives_of;
 use super::methods::PROPOSED;
 use super::tables::COMPARISON;
+use crate::papers::drawn_run::strips_of;
 use crate::papers::experiment::Ground;
 use crate::papers::group::Quantity;
-use crate::report::{Block, BoxPlot, Overlay, OverlayPath, Section, strips};
+use crate::report::{Block, BoxPlot, Overlay, OverlayPath, Section};
 use formicar::geometry::Point2;
 use formicar::render::AxisScale;
 
 /// The whole map, then all paths in the part that holds them, then what the proposed method's path
 /// is like along its length.
-pub(super) fn map(ground: &Ground, exhibits: &[Exhibit], part: (Point2, Point2)) -> Section {
+pub(super) fn map(ground: &Ground, drawn_runs: &[DrawnRun], part: (Point2, Point2)) -> Section {
     let frame = ground.grid.frame();
     let overlay = |caption: String, window, paths| Overlay {
         caption,
@@ -30,27 +31,21 @@ pub(super) fn map(ground: &Ground, exhibits: &[Exhibit], part: (Point2, Point2))
         frame.n_rows(),
         frame.resolution_m()
     );
-    let path = |exhibit: &Exhibit| OverlayPath {
-        name: exhibit.method.clone(),
-        points: exhibit.native.clone(),
+    let path = |drawn: &DrawnRun| OverlayPath {
+        name: drawn.method.clone(),
+        points: drawn.native.clone(),
     };
-    let paths = exhibits.iter().filter(|exhibit| !exhibit.native.is_empty());
+    let paths = drawn_runs.iter().filter(|drawn| !drawn.native.is_empty());
     let all = overlay(
         "All methods, seed 0: paths before corners are rounded.".to_owned(),
         Some(part),
         paths.map(path).collect(),
     );
     let whole = overlay(caption, None, Vec::new());
-    let own = exhibits.iter().find(|exhibit| exhibit.method == PROPOSED);
-    let along = own.and_then(|exhibit| {
-        let (path, report) = exhibit.judged.as_ref()?;
-        let caption = format!(
-            "`{PROPOSED}`, seed 0: curvature, steering and clearance along its path of {:.2} m, \
-             least clearance {:.3} m. Dashed lines are the vehicle's limits.",
-            path.length_m(),
-            report.min_clearance_m
-        );
-        Some(strips(&caption, (&ground.grid, &ground.vehicle), path))
+    let own = drawn_runs.iter().find(|drawn| drawn.method == PROPOSED);
+    let along = own.and_then(|drawn| {
+        let (path, report) = drawn.judged.as_ref()?;
+        Some(strips_of(ground, PROPOSED, path, report))
     });
     let figures = [whole.figure(), all.figure()].into_iter().chain(along);
     Section::new("Map: figure 4", figures.map(Block::Figure).collect())

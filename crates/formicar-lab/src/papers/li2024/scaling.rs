@@ -22,7 +22,7 @@ const SIZES: [[usize; 2]; 4] = [[400, 250], [800, 500], [1600, 1000], [4000, 250
 const N_SMALL: usize = 2;
 /// Seed of the maps and of the ends.
 const SEED: Seed = Seed(15);
-/// Requests on each map, and how many pairs of poses are looked at for them.
+/// Requests on each map, and how many pairs of poses are tried for them.
 const N_ROUTES: usize = 3;
 const N_PAIRS: usize = 12;
 
@@ -30,14 +30,14 @@ const N_PAIRS: usize = 12;
 pub(super) fn run(
     method: Method,
     scale: Scale,
-    tell: &mut dyn FnMut(&str),
+    report_progress: &mut dyn FnMut(&str),
 ) -> Result<(Vec<Drive>, Vec<Ground>)> {
     let n_sizes = if scale.is_small { N_SMALL } else { SIZES.len() };
     let variant = Variant::of(method.planner);
     let (mut drives, mut grounds) = (Vec::new(), Vec::new());
     for size in &SIZES[..n_sizes] {
         for (ground, route_m) in routes(*size)? {
-            tell(&format!("{}: {}", ground.map, variant.name));
+            report_progress(&format!("{}: {}", ground.map, variant.name));
             let job = Job {
                 part: SCALING,
                 ground: &ground,

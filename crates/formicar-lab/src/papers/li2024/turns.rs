@@ -1,4 +1,4 @@
-//! How hard a path turns from point to point (Li 2024, Table 2).
+//! Turns of a path from point to point (Li 2024, Table 2).
 
 use formicar::geometry::{Point2, Pose2, angle_difference};
 use formicar::path::CurvePath;
@@ -11,7 +11,7 @@ pub(super) struct Turns {
 }
 
 impl Turns {
-    /// At the inner nodes of a polyline; none where it has none.
+    /// At the inner nodes of a polyline; `None` where it has none.
     pub(super) fn of_polyline(points: &[Point2]) -> Option<Self> {
         let steps: Vec<Point2> = points
             .windows(2)
@@ -24,7 +24,7 @@ impl Turns {
         Self::of(turns)
     }
 
-    /// Over equal steps of at most `spacing_m` along a curve; none where it has no length.
+    /// Over equal steps of at most `spacing_m` along a curve; `None` where it has no length.
     pub(super) fn of_curve(path: &CurvePath, spacing_m: f64) -> Option<Self> {
         let n_steps = (path.length_m() / spacing_m).ceil() as usize;
         let step_m = path.length_m() / n_steps.max(1) as f64;

@@ -1,7 +1,8 @@
 //! One drive through a changing map.
 
-use super::course::{Block, can_stand, regions};
+use super::changes::{Block, can_stand, regions};
 use crate::papers::experiment::{Ground, Variant};
+use crate::run::measure;
 use anyhow::Result;
 use formicar::collision::{Body, ObstacleMap};
 use formicar::geometry::Arc;
@@ -11,26 +12,32 @@ use formicar::numeric::Seed;
 use formicar::objective::DriveMeter;
 use formicar::path::CurvePath;
 use formicar::planner::{Outcome, Plan, Planner, PlannerConfig};
-use formicar::progress::{Event, Observer};
 use formicar::scenario::Request;
 use serde::Serialize;
-use std::time::Instant;
 
-/// What the vehicle drives between two changes, as a share of the first path.
+/// Distance between two changes, as a share of the first path.
 const DRIVEN_SHARE: f64 = 0.1;
-/// Samples of paths when they are compared, metres apart.
+/// Samples of paths when they are compared, meters apart.
 const SPACING_M: f64 = 0.25;
-/// A place of a path this near to another path is on it, metres.
+/// A place of a path this near to another path is on it, meters.
 const NEAR_M: f64 = 0.25;
 
-/// How a new path is made after a change.
-pub(super) struct Method {
-    pub(super) variant: Variant,
-    /// Whether it replans; else it plans anew.
-    pub(super) replans: bool,
+/// The origin of a new path after a change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Replanning {
+    /// It is planned anew.
+    Anew,
+    /// It is replanned from the last one.
+    FromLast,
 }
 
-/// A change of the map and what the vehicle does then.
+/// A configuration and its way to a new path.
+pub(super) struct Method {
+    pub(super) variant: Variant,
+    pub(super) replanning: Replanning,
+}
+
+/// A change of the map, and the vehicle's answer to it.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Step {
     /// The map.
@@ -41,17 +48,17 @@ pub(super) struct Step {
     pub(super) seed: u64,
     /// The change, counted from 1.
     pub(super) change: usize,
-    /// Whether the path before is free after the change.
+    /// The last path is still free after the change.
     pub(super) still_free: bool,
-    /// Whether there is a certified path.
+    /// There is a certified path.
     pub(super) found: bool,
-    /// Whether it passes an obstacle on another side than the path before.
+    /// It passes an obstacle on another side than the last path.
     pub(super) flip: Option<bool>,
     /// Share of its places that lie on the path before.
     pub(super) kept_share: Option<f64>,
-    /// What it costs, metres.
+    /// Its cost, meters.
     pub(super) cost_m: Option<f64>,
-    /// What the path planned anew from the same place costs, metres.
+    /// The cost of the path planned anew from the same place, meters.
     pub(super) anew_cost_m: Option<f64>,
     /// Its length.
     pub(super) length_m: Option<f64>,
@@ -69,37 +76,9 @@ pub(super) struct Step {
     pub(super) n_steps: u64,
 }
 
-/// A clock that remembers the first certified path.
-struct Watch {
-    begun: Instant,
-    first_ms: Option<f64>,
-}
-
-impl Watch {
-    fn start() -> Self {
-        Self {
-            begun: Instant::now(),
-            first_ms: None,
-        }
-    }
-
-    fn ms(&self) -> f64 {
-        self.begun.elapsed().as_secs_f64() * 1e3
-    }
-}
-
-impl Observer for Watch {
-    fn on_event(&mut self, event: &Event) {
-        if matches!(event, Event::Improved { .. }) {
-            let now_ms = self.ms();
-            self.first_ms.get_or_insert(now_ms);
-        }
-    }
-}
-
-/// The answer to a query, and how long it took.
+/// The answer to a query, and its times.
 #[derive(Clone)]
-struct Asked {
+struct Answer {
     plan: Option<Plan>,
     first_ms: Option<f64>,
     query_ms: f64,
@@ -168,11 +147,10 @@ impl Journey<'_> {
         let (common, update_ms) = self.change_map(region)?;
         let driven_m = self.path.nearest_m(request.start, 1.0, SPACING_M);
         let ahead = rest(&self.path, driven_m);
-        let anew = self.ask(request, false)?;
-        let own = if self.method.replans {
-            self.ask(request, true)?
-        } else {
-            anew.clone()
+        let anew = self.ask(request, Replanning::Anew)?;
+        let own = match self.method.replanning {
+            Replanning::Anew => anew.clone(),
+            Replanning::FromLast => self.ask(request, Replanning::FromLast)?,
         };
         let plan = own.plan;
         let path = plan.as_ref().map(|plan| &plan.path);
@@ -204,40 +182,41 @@ impl Journey<'_> {
     /// Lets the last block vanish and the next one appear; the map between the two, on which the
     /// path before and the one after are free, and the time of both updates.
     fn change_map(&mut self, region: CellRegion) -> Result<(ObstacleMap, f64)> {
-        let watch = Watch::start();
-        if let Some(gone) = self.standing.take() {
-            self.planner.update_map(gone.region, &gone.before)?;
-        }
-        let vanished_ms = watch.ms();
+        let gone = self.standing.take();
+        let vanishing = measure(&mut (), |_| match gone {
+            Some(gone) => self.planner.update_map(gone.region, &gone.before),
+            None => Ok(()),
+        });
+        vanishing.answer?;
         let common = self.planner.obstacles().as_ref().clone();
         // What stood under the block may have vanished with the last one.
         let next = Block::of(&common, region);
-        let watch = Watch::start();
-        self.planner.update_map(next.region, &next.values())?;
+        let appearing = measure(&mut (), |_| {
+            self.planner.update_map(next.region, &next.values())
+        });
+        appearing.answer?;
         self.standing = Some(next);
-        Ok((common, vanished_ms + watch.ms()))
+        Ok((common, 1e3 * (vanishing.query_s + appearing.query_s)))
     }
 
     /// Plans from a start, by a copy of the planner: what queries prepare once after a change is
     /// part of each.
-    fn ask(&self, request: &Request, replans: bool) -> Result<Asked> {
+    fn ask(&self, request: &Request, method: Replanning) -> Result<Answer> {
         let mut planner = self.planner.clone();
-        let mut watch = Watch::start();
         let seed = Seed(self.seed);
-        let outcome = if replans {
-            planner.replan(request, &self.path, seed, &mut watch)?
-        } else {
-            planner.plan(request, seed, &mut watch)?
-        };
-        let query_ms = watch.ms();
-        let plan = match outcome {
+        let measured = measure(&mut (), |observer| match method {
+            Replanning::Anew => planner.plan(request, seed, observer),
+            Replanning::FromLast => planner.replan(request, &self.path, seed, observer),
+        });
+        let (first_s, query_s) = (measured.first_feasible_s(), measured.query_s);
+        let plan = match measured.answer? {
             Outcome::Found(plan) => Some(*plan),
             Outcome::NotFound(_) => None,
         };
-        Ok(Asked {
+        Ok(Answer {
             plan,
-            first_ms: watch.first_ms,
-            query_ms,
+            first_ms: first_s.map(|first_s| 1e3 * first_s),
+            query_ms: 1e3 * query_s,
         })
     }
 

@@ -1,6 +1,6 @@
 //! Replanning against planning anew, while obstacles appear before a vehicle and vanish again.
 
-mod course;
+mod changes;
 mod drive;
 mod tables;
 
@@ -8,7 +8,7 @@ use crate::papers::experiment::{Ground, Setup, Variant};
 use crate::papers::reproduction::{Reproduction, configs_of, csv, facts_of, seeds};
 use crate::report::Fact;
 use anyhow::{Context, Result};
-use drive::{Method, Step};
+use drive::{Method, Replanning, Step};
 use formicar::map::builtin::BuiltinMap;
 use formicar::map::generate::{NeighborhoodParameters, alley_neighborhood, free_pose_pairs};
 use formicar::numeric::Seed;
@@ -30,8 +30,8 @@ const GENERATED: &str = "generated";
 /// each consistency weight by replanning.
 ///
 /// # Errors
-/// None that is expected: maps and configurations are built in.
-pub fn replanning(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproduction> {
+/// No error is expected: maps and configurations are built in.
+pub fn replanning(setup: &Setup, report_progress: &mut dyn FnMut(&str)) -> Result<Reproduction> {
     let n_seeds = setup.scale.n_seeds;
     let maps = if setup.scale.is_small { 1 } else { MAPS.len() };
     let builtin = MAPS[..maps].iter().map(|map| ground(map));
@@ -40,12 +40,12 @@ pub fn replanning(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproduct
     let mut steps = Vec::new();
     for method in &methods {
         for ground in &builtin {
-            tell(&format!("{}: {}", ground.map, method.variant.name));
+            report_progress(&format!("{}: {}", ground.map, method.variant.name));
             for seed in 0..n_seeds {
                 steps.extend(drive::drive(ground, method, seed)?);
             }
         }
-        tell(&format!("{GENERATED}: {}", method.variant.name));
+        report_progress(&format!("{GENERATED}: {}", method.variant.name));
         for seed in 0..n_seeds {
             steps.extend(drive::drive(&generated(seed)?, method, seed)?);
         }
@@ -66,11 +66,11 @@ fn reproduction(
     Ok(Reproduction {
         report: tables::report(steps),
         csv: csv(steps)?,
-        courses_csv: String::new(),
-        ompl_logs: Vec::new(),
+
         n_runs: steps.len(),
         facts,
         configs: configs_of(pairs)?,
+        ..Reproduction::default()
     })
 }
 
@@ -110,11 +110,11 @@ impl Method {
                 &format!("replan, consistency {consistency}"),
                 |config| config.replan.consistency = consistency,
             ),
-            replans: true,
+            replanning: Replanning::FromLast,
         };
         let anew = Self {
             variant: Variant::changed(PlannerName::Formicar, "anew", |_| {}),
-            replans: false,
+            replanning: Replanning::Anew,
         };
         vec![anew, replan(0.0), replan(0.05), replan(0.2)]
     }

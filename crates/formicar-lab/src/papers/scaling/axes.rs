@@ -1,4 +1,4 @@
-//! What grows, and the grounds on which it does.
+//! The quantities that grow, and their grounds.
 
 use crate::papers::experiment::{Ground, Scale, Variant};
 use anyhow::{Context, Result};
@@ -8,7 +8,7 @@ use formicar::planner::PlannerName;
 use formicar::scenario::{GoalHeading, Request};
 use formicar::vehicle::{Vehicle, VehicleParameters};
 
-/// Side of a cell, metres.
+/// Side of a cell, meters.
 const RESOLUTION_M: f64 = 0.2;
 /// Share of occupied cells, where it is not what grows.
 const DENSITY: f64 = 0.02;
@@ -61,12 +61,12 @@ impl Quantity {
         }
     }
 
-    /// What its numbers are.
+    /// The meaning of its numbers.
     pub(super) fn about(self) -> &'static str {
         match self {
             Self::Cells => "cells of the map",
             Self::Density => "share of occupied cells",
-            Self::VehicleSize => "length of the vehicle, metres",
+            Self::VehicleSize => "length of the vehicle, meters",
             Self::Ants => "ants of an iteration",
             Self::Threads => "threads",
         }

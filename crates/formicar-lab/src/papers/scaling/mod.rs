@@ -33,17 +33,17 @@ const COSTS: [Cost; 3] = [
 ///
 /// # Errors
 /// Grounds that cannot be made.
-pub fn scaling(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproduction> {
+pub fn scaling(setup: &Setup, report_progress: &mut dyn FnMut(&str)) -> Result<Reproduction> {
     let n_seeds = setup.scale.n_seeds.min(N_SEEDS);
     let mut samples = Vec::new();
     let mut used: Vec<(Ground, Vec<Variant>)> = Vec::new();
     for quantity in Quantity::ALL {
         for point in quantity.points(setup.scale)? {
             for variant in &point.variants {
-                tell(&format!("{} {}: {}", quantity.key(), point.x, variant.name));
+                report_progress(&format!("{} {}: {}", quantity.key(), point.x, variant.name));
                 for seed in 0..n_seeds {
-                    let run = (seed, setup.scale);
-                    samples.push(Sample::run(quantity, &point, variant, run)?);
+                    let sample = Sample::run(quantity, &point, variant, seed, setup.scale)?;
+                    samples.push(sample);
                 }
             }
             used.push((point.ground, point.variants));
@@ -66,11 +66,11 @@ pub fn scaling(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproduction
             sections: sections.into(),
         },
         csv: csv(&samples)?,
-        courses_csv: String::new(),
-        ompl_logs: Vec::new(),
+
         n_runs: samples.len(),
         facts,
         configs: configs_of(pairs)?,
+        ..Reproduction::default()
     })
 }
 

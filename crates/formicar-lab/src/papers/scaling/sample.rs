@@ -3,13 +3,13 @@
 use super::axes::{Point, Quantity};
 use crate::analysis::statistics::quartiles;
 use crate::papers::experiment::{Scale, Variant};
+use crate::run::measure;
 use anyhow::Result;
 use formicar::numeric::Seed;
 use formicar::planner::{Outcome, Planner};
 use serde::Serialize;
-use std::time::Instant;
 
-/// What a query came to; times are medians over its repetitions.
+/// The result of a query; times are medians over its repetitions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Sample {
     pub(super) quantity: &'static str,
@@ -31,20 +31,23 @@ impl Sample {
         quantity: Quantity,
         point: &Point,
         variant: &Variant,
-        (seed, scale): (u64, Scale),
+        seed: u64,
+        scale: Scale,
     ) -> Result<Self> {
         let (ground, config) = (&point.ground, variant.config.clone());
-        let begun = Instant::now();
-        let planner = Planner::new(&ground.grid, ground.vehicle.clone(), config)?;
-        let setup_ms = elapsed_ms(begun);
-        let mut planner = planner.with_threads(point.n_threads);
+        let setup = measure(&mut (), |_| {
+            Planner::new(&ground.grid, ground.vehicle.clone(), config)
+        });
+        let mut planner = setup.answer?.with_threads(point.n_threads);
         let mut outcome = planner.plan(&ground.request, Seed(seed), &mut ())?;
         let mut times_ms = Vec::new();
         let n_timings = scale.n_timings.min(MAX_TIMINGS);
         while times_ms.len() < n_timings && times_ms.iter().sum::<f64>() < ENOUGH_MS {
-            let begun = Instant::now();
-            outcome = planner.plan(&ground.request, Seed(seed), &mut ())?;
-            times_ms.push(elapsed_ms(begun));
+            let query = measure(&mut (), |observer| {
+                planner.plan(&ground.request, Seed(seed), observer)
+            });
+            outcome = query.answer?;
+            times_ms.push(1e3 * query.query_s);
         }
         let [_, query_ms, _] = quartiles(&times_ms).unwrap_or_default();
         let (is_solved, steps) = match &outcome {
@@ -57,7 +60,7 @@ impl Sample {
             planner: variant.name.clone(),
             seed,
             is_solved,
-            setup_ms,
+            setup_ms: 1e3 * setup.query_s,
             query_ms,
             steps,
         })
@@ -68,7 +71,3 @@ impl Sample {
 const MAX_TIMINGS: usize = 3;
 /// Time after which a query is not repeated.
 const ENOUGH_MS: f64 = 3000.0;
-
-fn elapsed_ms(since: Instant) -> f64 {
-    since.elapsed().as_secs_f64() * 1e3
-}

@@ -32,7 +32,7 @@ const SAME: Expected = Expected::Same(0.01);
 
 pub(super) fn claims(runs: Runs, timings: &[Timing]) -> Claims {
     let against = |map: &str, other: &str, quantity, expected| {
-        runs.compare(map, [PROPOSED, other], (quantity, expected))
+        runs.compare(map, [PROPOSED, other], quantity, expected)
     };
     let both =
         |map: &str, quantity: &'static Quantity<Trial>, expected: Expected| -> Vec<Comparison> {
@@ -43,46 +43,51 @@ pub(super) fn claims(runs: Runs, timings: &[Timing]) -> Claims {
     Claims(vec![
         Claim::counted(
             "Avoids the narrow aisles",
-            ("sec. 4, fig. 6", "-"),
+            "sec. 4, fig. 6",
+            "-",
             vec![unsqueezed(runs)],
         ),
         Claim::paired(
             "The colony of reference 7 goes through the narrow aisles",
-            ("sec. 4, fig. 6", "-"),
+            "sec. 4, fig. 6",
+            "-",
             vec![against("wang-aisles", ZHANG, &SQUEEZES, Expected::Less)],
         ),
         Claim::paired(
             "Finds a shorter way than reference 11 where there are aisles",
-            ("sec. 4, fig. 6", "-"),
+            "sec. 4, fig. 6",
+            "-",
             vec![against("wang-aisles", JOSHY, &LENGTH, Expected::Less)],
         ),
         Claim::paired(
             "Without aisles all three find the same way",
-            ("sec. 4, fig. 7(a)", "-"),
+            "sec. 4, fig. 7(a)",
+            "-",
             both("wang-open", &LENGTH, SAME),
         ),
         Claim::paired(
             "Without aisles it converges first",
-            (
-                "sec. 4, fig. 7(b)",
-                "iteration 20 : 40 (reference 7), 30 (11)",
-            ),
+            "sec. 4, fig. 7(b)",
+            "iteration 20 : 40 (reference 7), 30 (11)",
             both("wang-open", &CONVERGED, Expected::Less),
         ),
         Claim::paired(
             "On the third map it finds the same way as reference 11",
-            ("sec. 4, fig. 8(a)", "-"),
+            "sec. 4, fig. 8(a)",
+            "-",
             vec![against("aco20", JOSHY, &LENGTH, SAME)],
         ),
         Claim::paired(
             "On the third map it converges earlier than reference 11",
-            ("sec. 4, fig. 8(b)", "-"),
+            "sec. 4, fig. 8(b)",
+            "-",
             vec![against("aco20", JOSHY, &CONVERGED, Expected::Less)],
         ),
         adjacency::claim(timings),
         Claim::paired(
             "Takes the least time of those compared",
-            ("sec. 5", "-"),
+            "sec. 5",
+            "-",
             super::MAPS
                 .iter()
                 .flat_map(|(map, _)| both(map, &TIME, Expected::Less))

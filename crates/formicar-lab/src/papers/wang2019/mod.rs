@@ -5,7 +5,7 @@ mod claims;
 mod steps;
 
 use crate::papers::correspondence;
-use crate::papers::exhibit::{Exhibit, Line, overlay};
+use crate::papers::drawn_run::{DrawnRun, Line, overlay};
 use crate::papers::experiment::{Ground, Setup, Variant, run_all};
 use crate::papers::group::{Column, Group, table_of};
 use crate::papers::parameters;
@@ -32,18 +32,18 @@ const COLONIES: [&str; 3] = [ZHANG, JOSHY, PROPOSED];
 /// Runs the colony and those it is compared with, and times both calculations of the adjacency.
 ///
 /// # Errors
-/// None that is expected: maps and configurations are built in.
-pub fn wang2019(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproduction> {
+/// No error is expected: maps and configurations are built in.
+pub fn wang2019(setup: &Setup, report_progress: &mut dyn FnMut(&str)) -> Result<Reproduction> {
     let grounds = MAPS.map(|(map, _)| Ground::builtin(map));
     let grounds = grounds.into_iter().collect::<Result<Vec<_>>>()?;
-    let runs = run_all(&grounds, |_| variants(), setup, tell)?;
-    tell("adjacency timing");
+    let runs = run_all(&grounds, |_| variants(), setup, report_progress)?;
+    report_progress("adjacency timing");
     let timings = adjacency::measure(setup.scale)?;
     let all = Runs(&runs);
     let claims = claims::claims(all, &timings);
     let mut sections = vec![claims.verdicts()];
     for ((map, figure), ground) in MAPS.iter().zip(&grounds) {
-        sections.push(of_map((map, figure), ground, all)?);
+        sections.push(of_map(map, figure, ground, all)?);
     }
     sections.push(adjacency::section(&timings));
     sections.push(steps::section());
@@ -66,7 +66,7 @@ pub fn wang2019(setup: &Setup, tell: &mut dyn FnMut(&str)) -> Result<Reproductio
             .to_owned(),
         sections,
     };
-    Reproduction::of_runs(report, &runs, (&grounds, |_| variants()), setup)
+    Reproduction::of_runs(report, &runs, &grounds, |_| variants(), setup)
 }
 
 fn variants() -> Vec<Variant> {
@@ -93,18 +93,18 @@ fn variants() -> Vec<Variant> {
 }
 
 /// Paths, convergence and numbers on one map.
-fn of_map((map, figure): (&str, &str), ground: &Ground, runs: Runs) -> Result<Section> {
+fn of_map(map: &str, figure: &str, ground: &Ground, runs: Runs) -> Result<Section> {
     let plain = variants().into_iter();
     let plain = plain.filter(|variant| COLONIES.contains(&variant.name.as_str()));
-    let mut exhibits = Vec::new();
+    let mut drawn_runs = Vec::new();
     for variant in plain {
-        exhibits.push(Exhibit::new(ground, &variant)?);
+        drawn_runs.push(DrawnRun::new(ground, &variant)?);
     }
-    exhibits.sort_by_key(|exhibit| exhibit.variant == PROPOSED);
+    drawn_runs.sort_by_key(|drawn| drawn.variant == PROPOSED);
     let caption = format!(
         "Figure {figure}(a) on `{map}`, seed 0: the ways of the three colonies from cell to cell."
     );
-    let paths = overlay(ground, (&exhibits, Line::Cells), &caption);
+    let paths = overlay(ground, &drawn_runs, Line::Cells, &caption);
     let caption = format!(
         "Figure {figure}(b) on `{map}`: length of the best way so far, medians and quartiles over \
          the seeds, by iteration, by ants sent out and by time since the colony set out. A line \

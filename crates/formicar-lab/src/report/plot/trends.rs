@@ -44,34 +44,38 @@ impl Trend {
         }
     }
 
-    /// Adds a line with its ribbon to a chart, or a dot with its quartiles.
-    fn add_to(&self, chart: &mut Chart, (color, dash): (Color, Dash), is_short: bool) {
-        let at = |i: usize| move |point: &[f64; 4]| Point2::new(point[0], point[i]);
-        let line: Vec<Point2> = match self.points.last() {
-            Some(end) if is_short => {
-                chart.dots.push(Dots {
-                    points: vec![at(2)(end)],
-                    color,
-                    fill: DotFill::Solid,
-                    radius_px: 4.5,
-                    stem_from: None,
-                });
-                vec![at(1)(end), at(3)(end)]
-            }
-            _ => self.points.iter().map(at(2)).collect(),
-        };
+    /// Adds the quartiles to a chart, and the median as a line.
+    fn add_line(&self, chart: &mut Chart, color: Color, dash: Dash) {
         let edges = self.points.iter().map(|&[x, low, _, high]| [x, low, high]);
         chart.ribbons.push(Ribbon {
             label: String::new(),
             points: edges.collect(),
             color,
         });
-        if !line.is_empty() {
-            chart.series.push(Series {
-                dash: if is_short { Dash::Solid } else { dash },
-                ..Series::new(&self.name, line, color)
-            });
-        }
+        let medians = self
+            .points
+            .iter()
+            .map(|&[x, _, median, _]| Point2::new(x, median));
+        chart.series.push(Series {
+            dash,
+            ..Series::new(&self.name, medians.collect(), color)
+        });
+    }
+
+    /// Adds the last median to a chart as a dot, with a bar between its quartiles.
+    fn add_dot(&self, chart: &mut Chart, color: Color) {
+        let Some(&[x, low, median, high]) = self.points.last() else {
+            return;
+        };
+        let bar = vec![Point2::new(x, low), Point2::new(x, high)];
+        chart.series.push(Series::new(&self.name, bar, color));
+        chart.dots.push(Dots {
+            points: vec![Point2::new(x, median)],
+            color,
+            fill: DotFill::Solid,
+            radius_px: 4.5,
+            stem_from: None,
+        });
     }
 }
 
@@ -125,10 +129,13 @@ impl TrendPanel {
             ..Chart::default()
         };
         let [low, high] = ends(self.trends.iter().flat_map(|trend| self.positions(trend)));
-        for (trend, look) in self.trends.iter().zip(SERIES_LOOKS.into_iter().cycle()) {
+        for (trend, (color, dash)) in self.trends.iter().zip(SERIES_LOOKS.into_iter().cycle()) {
             let [first, last] = ends(self.positions(trend));
-            let is_short = last - first <= LEAST_LINE * (high - low);
-            trend.add_to(&mut chart, look, is_short);
+            if last - first > LEAST_LINE * (high - low) {
+                trend.add_line(&mut chart, color, dash);
+            } else {
+                trend.add_dot(&mut chart, color);
+            }
         }
         chart
     }

@@ -60,7 +60,7 @@ fn costs(records: &[IterationRecord]) -> Chart {
     }
 }
 
-/// How a line is named and drawn.
+/// Name, color and dash of a line.
 type Look = (&'static str, Color, Dash);
 const RHO: Look = ("ρ", palette::MUTED, Dash::Dotted);
 const MEAN: Look = ("mean", palette::REVERSE, Dash::Dashed);

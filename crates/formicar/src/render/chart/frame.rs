@@ -36,7 +36,7 @@ impl Plot<'_> {
             let low = Point2::new(from, self.corner.y);
             let area = Element::rectangle(low, Point2::new((to - from).max(0.0), self.size.y));
             svg.add(&area.fill(palette::REVERSE.mix(palette::PAGE, 0.8)));
-            self.name_band(svg, &band.label, (from, to));
+            self.name_band(svg, &band.label, from, to);
         }
         self.draw_x_axis(svg);
         if self.chart.boxes.is_empty() {
@@ -49,7 +49,7 @@ impl Plot<'_> {
     }
 
     /// Above the frame, where no line runs, if it fits there beside the heading.
-    fn name_band(&self, svg: &mut Svg, label: &str, (from, to): (f64, f64)) {
+    fn name_band(&self, svg: &mut Svg, label: &str, from: f64, to: f64) {
         let style = Lettering::new(12.0, palette::REVERSE.mix(palette::INK, 0.25));
         let half_px = 0.5 * style.width_px(label);
         let middle = 0.5 * (from + to);

@@ -75,7 +75,8 @@ impl Chart {
 }
 
 fn scale(axis: &Axis, of_data: impl FnOnce() -> (f64, f64)) -> Scale {
-    Scale::new(axis.scale, axis.range.unwrap_or_else(of_data))
+    let (low, high) = axis.range.unwrap_or_else(of_data);
+    Scale::new(axis.scale, low, high)
 }
 
 /// Lowest and highest of the values that can be drawn; never empty.
@@ -133,7 +134,7 @@ mod tests {
         for scale in [AxisScale::Linear, AxisScale::Log] {
             for values in [vec![], vec![7.0]] {
                 let (low, high) = span(values.into_iter(), scale);
-                assert!(!Scale::new(scale, (low, high)).ticks(5.0).is_empty());
+                assert!(!Scale::new(scale, low, high).ticks(5.0).is_empty());
             }
         }
         assert_eq!(

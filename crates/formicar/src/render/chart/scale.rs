@@ -22,7 +22,7 @@ pub(super) struct Tick {
 }
 
 impl Scale {
-    pub(super) fn new(kind: AxisScale, (low, high): (f64, f64)) -> Self {
+    pub(super) fn new(kind: AxisScale, low: f64, high: f64) -> Self {
         Self { kind, low, high }
     }
 
@@ -78,7 +78,7 @@ mod tests {
     use super::*;
 
     fn labels(low: f64, high: f64, kind: AxisScale) -> Vec<String> {
-        let ticks = Scale::new(kind, (low, high)).ticks(5.5);
+        let ticks = Scale::new(kind, low, high).ticks(5.5);
         ticks.into_iter().map(|tick| tick.label).collect()
     }
 
@@ -105,7 +105,7 @@ mod tests {
 
     #[test]
     fn equal_ratios_are_equally_far_apart_on_a_logarithmic_axis() {
-        let scale = Scale::new(AxisScale::Log, (1.0, 100.0));
+        let scale = Scale::new(AxisScale::Log, 1.0, 100.0);
         assert!((scale.share(10.0) - 0.5).abs() < 1e-12);
         assert!((scale.share(100.0) - 1.0).abs() < 1e-12);
     }

@@ -7,12 +7,12 @@ use crate::render::palette;
 use crate::render::style::clearance_label;
 use crate::vehicle::{Motion, Vehicle};
 
-/// What the strip charts show at one place of a path.
+/// The values of the strip charts at one place of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProfilePoint {
-    /// Arc length driven so far, metres.
+    /// Arc length driven so far, meters.
     pub s_m: f64,
-    /// Curvature of the rear-axle centre's path, positive left.
+    /// Curvature of the rear-axle center's path, positive left.
     pub curvature_per_m: f64,
     /// Steering angle, where the wheelbase is known.
     pub steer_rad: Option<f64>,
@@ -33,7 +33,7 @@ pub fn strip_charts(profile: &[ProfilePoint], vehicle: &Vehicle) -> Vec<Chart> {
     if vehicle.motion() == Motion::Car {
         charts.push(Chart {
             limits: both_sides(max_curvature_per_m, |k| format!("{k:.2} 1/m")),
-            ..steps(profile, ("curvature", "1/m"), |p| p.curvature_per_m)
+            ..steps(profile, "curvature", "1/m", |p| p.curvature_per_m)
         });
     }
     if let Some(limit_rad) = vehicle
@@ -43,7 +43,7 @@ pub fn strip_charts(profile: &[ProfilePoint], vehicle: &Vehicle) -> Vec<Chart> {
         let steer_deg = |p: &ProfilePoint| p.steer_rad.map_or(f64::NAN, f64::to_degrees);
         charts.push(Chart {
             limits: both_sides(limit_rad.to_degrees(), |a| format!("{a:.1}°")),
-            ..steps(profile, ("steering", "degrees"), steer_deg)
+            ..steps(profile, "steering", "degrees", steer_deg)
         });
     }
     charts.push(clearance(profile));
@@ -75,7 +75,7 @@ fn clearance(profile: &[ProfilePoint]) -> Chart {
             value: 0.0,
         }],
         ringed: tightest.map(label),
-        ..strip(profile, ("clearance", "m"), |p| p.clearance_m)
+        ..strip(profile, "clearance", "m", |p| p.clearance_m)
     }
 }
 
@@ -83,10 +83,11 @@ fn clearance(profile: &[ProfilePoint]) -> Chart {
 /// point was reached.
 fn steps(
     profile: &[ProfilePoint],
-    heading: (&str, &str),
+    title: &str,
+    unit: &str,
     value: impl Fn(&ProfilePoint) -> f64,
 ) -> Chart {
-    let mut chart = strip(profile, heading, &value);
+    let mut chart = strip(profile, title, unit, &value);
     if let Some(series) = chart.series.first_mut() {
         let steps = profile.windows(2).flat_map(|pair| {
             let reached = value(&pair[1]);
@@ -99,7 +100,8 @@ fn steps(
 
 fn strip(
     profile: &[ProfilePoint],
-    (title, unit): (&str, &str),
+    title: &str,
+    unit: &str,
     value: impl Fn(&ProfilePoint) -> f64,
 ) -> Chart {
     let points = profile

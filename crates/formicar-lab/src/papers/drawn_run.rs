@@ -1,18 +1,20 @@
-//! One run kept whole, to be drawn.
+//! A run kept for its pictures.
 
 use crate::papers::experiment::{Ground, Variant};
 use crate::report::{Figure, Overlay, OverlayPath, strips};
 use anyhow::Result;
 use formicar::numeric::Seed;
+use formicar::path::CurvePath;
 use formicar::planner::{Outcome, Planner};
+use formicar::validation::Report;
 
 /// A run with the seed 0.
-pub(crate) struct Exhibit {
+pub(crate) struct DrawnRun {
     pub(crate) variant: String,
     pub(crate) outcome: Outcome,
 }
 
-/// Which path of a run is drawn.
+/// The path of a run that is drawn.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Line {
     /// The ants' way from cell to cell.
@@ -21,7 +23,7 @@ pub(crate) enum Line {
     Curve,
 }
 
-impl Exhibit {
+impl DrawnRun {
     pub(crate) fn new(ground: &Ground, variant: &Variant) -> Result<Self> {
         let mut planner =
             Planner::new(&ground.grid, ground.vehicle.clone(), variant.config.clone())?;
@@ -52,11 +54,12 @@ impl Exhibit {
 /// The paths of several runs on their map.
 pub(crate) fn overlay(
     ground: &Ground,
-    (exhibits, line): (&[Exhibit], Line),
+    drawn_runs: &[DrawnRun],
+    line: Line,
     caption: &str,
 ) -> Figure {
-    let paths = exhibits.iter();
-    let paths = paths.filter_map(|exhibit| exhibit.path(ground, line));
+    let paths = drawn_runs.iter();
+    let paths = paths.filter_map(|drawn| drawn.path(ground, line));
     Overlay {
         caption: caption.to_owned(),
         map: &ground.grid,
@@ -68,10 +71,14 @@ pub(crate) fn overlay(
     .figure()
 }
 
-/// Curvature, steering and clearance along the judged path of a run; none where it has none.
-pub(crate) fn strips_of(ground: &Ground, exhibit: &Exhibit) -> Option<Figure> {
-    let (path, report) = exhibit.outcome.judged()?;
-    let word = if matches!(exhibit.outcome, Outcome::Found(_)) {
+/// Curvature, steering and clearance along the judged path of a method.
+pub(crate) fn strips_of(
+    ground: &Ground,
+    method: &str,
+    path: &CurvePath,
+    report: &Report,
+) -> Figure {
+    let word = if report.valid {
         "certified"
     } else {
         "refused by the judge"
@@ -79,10 +86,10 @@ pub(crate) fn strips_of(ground: &Ground, exhibit: &Exhibit) -> Option<Figure> {
     let caption = format!(
         "`{}` on `{}`, seed 0: curvature, steering and clearance along its path of {:.2} m, {word}, \
          least clearance {:.3} m. Dashed lines are the vehicle's limits.",
-        exhibit.variant,
+        method,
         ground.map,
         path.length_m(),
         report.min_clearance_m
     );
-    Some(strips(&caption, (&ground.grid, &ground.vehicle), path))
+    strips(&caption, &ground.grid, &ground.vehicle, path)
 }

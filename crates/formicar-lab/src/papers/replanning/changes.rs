@@ -1,4 +1,4 @@
-//! What changes on a map while a vehicle drives: the same for every method.
+//! Changes of a map while a vehicle drives: the same for every method.
 
 use formicar::collision::{Body, Drive, ObstacleMap};
 use formicar::geometry::Pose2;
@@ -9,16 +9,16 @@ use formicar::vehicle::Vehicle;
 
 /// Changes of the map in a drive.
 pub(super) const N_CHANGES: usize = 5;
-/// Where on the first path the first block appears, and how much farther each next one, as shares
-/// of its length.
+/// Place of the first block on the first path, and the distance to each next one, as shares of its
+/// length.
 const FIRST_SHARE: f64 = 0.3;
 const NEXT_SHARE: f64 = 0.14;
-/// How far beside the path a block's middle may be, vehicle widths.
+/// Largest distance of a block's center from the path, vehicle widths.
 const ASIDE_WIDTHS: f64 = 1.0;
 /// Sides of a block, vehicle widths.
 const SIDES_WIDTHS: (f64, f64) = (0.3, 0.8);
 
-/// A block that appears: where, and what its cells were before.
+/// A block that appears: its region, and the values of its cells before.
 #[derive(Clone, Debug)]
 pub(super) struct Block {
     pub(super) region: CellRegion,
@@ -79,7 +79,7 @@ fn region(frame: &GridFrame, middle: Pose2, side_m: f64) -> CellRegion {
     CellRegion::new(corner, cols.len(), rows.len())
 }
 
-/// Whether a block can appear in a region: not on the vehicle, nor on its goal.
+/// A block can appear in a region that holds neither the vehicle nor its goal.
 pub(super) fn can_stand(
     obstacles: &ObstacleMap,
     vehicle: &Vehicle,
