@@ -155,7 +155,6 @@ impl Plan {
         Ok(Reproduction {
             report: self.report(findings)?,
             csv: csv(&findings.drives)?,
-
             n_runs: findings.drives.len(),
             facts: [
                 facts_of(std::slice::from_ref(&self.ground)),

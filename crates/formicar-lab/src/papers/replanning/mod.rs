@@ -66,7 +66,6 @@ fn reproduction(
     Ok(Reproduction {
         report: tables::report(steps),
         csv: csv(steps)?,
-
         n_runs: steps.len(),
         facts,
         configs: configs_of(pairs)?,

@@ -66,7 +66,6 @@ pub fn scaling(setup: &Setup, report_progress: &mut dyn FnMut(&str)) -> Result<R
             sections: sections.into(),
         },
         csv: csv(&samples)?,
-
         n_runs: samples.len(),
         facts,
         configs: configs_of(pairs)?,

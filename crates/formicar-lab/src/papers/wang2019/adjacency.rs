@@ -29,7 +29,7 @@ pub(super) struct Timing {
 }
 
 /// Times both calculations, and the move masks that are used instead, on maps of all sizes.
-pub(super) fn measure(scale: Scale) -> Result<Vec<Timing>> {
+pub(super) fn time_all(scale: Scale) -> Result<Vec<Timing>> {
     let rule = DiagonalRule::AtMostOneObstacle;
     let of_side = |&side: &usize| {
         let blocked = scattered(side)?;

@@ -38,7 +38,7 @@ pub fn wang2019(setup: &Setup, report_progress: &mut dyn FnMut(&str)) -> Result<
     let grounds = grounds.into_iter().collect::<Result<Vec<_>>>()?;
     let runs = run_all(&grounds, |_| variants(), setup, report_progress)?;
     report_progress("adjacency timing");
-    let timings = adjacency::measure(setup.scale)?;
+    let timings = adjacency::time_all(setup.scale)?;
     let all = Runs(&runs);
     let claims = claims::claims(all, &timings);
     let mut sections = vec![claims.verdicts()];
