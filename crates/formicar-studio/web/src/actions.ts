@@ -237,7 +237,7 @@ export class Actions {
     this.planSlot(slot, "settle", performance.now());
   }
 
-  /** Plans and shows the run from its beginning; both slots where none is named. */
+  /** Plans and shows the run from its beginning; without a slot, in both. */
   plan(slot?: Slot): void {
     if (slot === undefined) this.planAll("replay", performance.now());
     else this.planSlot(slot, "replay", performance.now());
@@ -363,7 +363,7 @@ export class Actions {
   }
 
   private errorCame({ about, message, plan }: ErrorMessage): void {
-    // A plan that could not be begun says so where its answer would stand.
+    // A plan that could not begin shows the reason in place of its answer.
     if (plan !== undefined && this.planning.refused(plan, message)) return;
     if (about === "map" && this.opening.isAwaited) {
       this.opening.failed(message).catch((error) => this.store.set({ error: reason(error) }));

@@ -5,7 +5,7 @@ import type { MapState } from "./store";
 
 /** Rows that are sent as one rectangle: strokes askew would else span much that is unchanged. */
 const BAND_ROWS = 16;
-/** More changes are not remembered: whoever is further behind looks at the whole map. */
+/** Changes kept at most; a view further behind redraws the whole map. */
 const MAX_CHANGES = 256;
 
 export type Grid = Pick<MapState, "n_cols" | "n_rows" | "resolution_m" | "origin">;

@@ -13,7 +13,7 @@ export class Connection {
   private socket: WebSocket | null = null;
   private waitMs = FIRST_WAIT_MS;
 
-  /** `status` hears whether the line stands; `received` hears every message. */
+  /** `status` is called when the connection opens or closes, `received` with every message. */
   constructor(
     private readonly url: string,
     private readonly received: Received,
@@ -22,7 +22,7 @@ export class Connection {
     this.open();
   }
 
-  /** Says something; false where the line is down, and nothing is said later. */
+  /** Sends a message; without a connection it is dropped, and the result is false. */
   send(message: ClientMessage): boolean {
     if (this.socket?.readyState !== WebSocket.OPEN) return false;
     this.socket.send(JSON.stringify(message));

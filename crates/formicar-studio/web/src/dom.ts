@@ -30,7 +30,7 @@ export function s<K extends keyof SVGElementTagNameMap>(
   return element;
 }
 
-/** Sets text only where it differs, so that nothing is laid out again for nothing. */
+/** Sets text only if it differs, which saves a layout. */
 export function setText(element: Element, text: string): void {
   if (element.textContent !== text) element.textContent = text;
 }

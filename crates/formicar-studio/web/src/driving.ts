@@ -49,13 +49,13 @@ export class Driving {
     return this.departures.has(request.start);
   }
 
-  /** The way from here on: driven if there is one, else the vehicle stops where it is. */
+  /** The path from here on: the vehicle drives it, or stops if there is none. */
   replanned(slot: Slot, message: AnswerMessage): void {
     if (message.answer.path) this.start(slot, this.law);
     else this.halt(slot);
   }
 
-  /** A drive could not be made: whoever waits for one goes on. */
+  /** A drive failed: its waiter goes on. */
   failed(): void {
     const { a, b } = this.store.state.slots;
     for (const side of [a, b]) if (side !== null) side.isHeld = false;

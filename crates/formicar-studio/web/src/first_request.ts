@@ -22,7 +22,7 @@ export function firstRequest(
   };
 }
 
-/** The free pose nearest to a place, of four headings; the place itself where none is found. */
+/** The free pose nearest to a point, of four headings; the point itself if none is found. */
 function freePose(map: MapState, vehicle: VehicleMessage | null, [x, y]: [number, number]): Pose {
   const reach = 0.5 * Math.max(map.n_cols, map.n_rows) * map.resolution_m;
   const headings = [0, Math.PI / 2, Math.PI, -Math.PI / 2];

@@ -50,7 +50,7 @@ export class FrameBuffer {
     return nWithPheromone > 2 && total > MAX_PHEROMONE_BYTES;
   }
 
-  /** Doubles the stride; false where nothing is left to thin. */
+  /** Doubles the stride; false if nothing is left to thin. */
   private thin(): boolean {
     if (this.frames.every((frame) => frame.type === "improved")) return false;
     if (this.stride > 1 << 30) return false;
@@ -72,7 +72,7 @@ export class FrameBuffer {
     return true;
   }
 
-  /** Every other motion goes where there are too many to draw anyway. */
+  /** Drops every other motion if there are too many to draw. */
   private boundMotions(newest: { motions: number[] }): void {
     this.nMotionNumbers += newest.motions.length;
     if (this.nMotionNumbers <= MAX_MOTION_NUMBERS) return;

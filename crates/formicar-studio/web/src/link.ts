@@ -22,7 +22,7 @@ interface Packed {
 
 const VERSION = "1";
 const KEY = "scene";
-/** Marks a value that stands for itself, not for changes of another. */
+/** Marks a whole value, as opposed to changes of another one. */
 const WHOLE = "=";
 
 /** The hash, without its `#`. */
@@ -37,7 +37,7 @@ export async function encode(scene: Scene, catalog: Catalog): Promise<string> {
   return `${KEY}=${VERSION}.${toBase64(bytes)}`;
 }
 
-/** The scene of a hash, or null where it holds none or is damaged. */
+/** The scene of a hash; null if it holds none or is damaged. */
 export async function decode(hash: string, catalog: Catalog): Promise<Scene | null> {
   const [version, data] = (new URLSearchParams(hash.replace(/^#/, "")).get(KEY) ?? "").split(".");
   if (version !== VERSION || data === undefined) return null;

@@ -57,7 +57,7 @@ export class Opening {
     this.open(FIRST);
   }
 
-  /** Opens the scene of a link; false where there is none in it. */
+  /** Opens the scene of a link; false if the link holds none. */
   async openLink(hash: string): Promise<boolean> {
     const { catalog } = this.store.state;
     const scene = catalog === null ? null : await decode(hash, catalog);
@@ -71,7 +71,7 @@ export class Opening {
     else if (this.store.state.map !== null) this.askAgain("asked");
   }
 
-  /** A map came; false where it is here already, as after a broken line. */
+  /** Takes a map from the server; false if it is open already, as after a reconnection. */
   came(message: MapMessage, payload: Uint8Array): boolean {
     const { wanted } = this;
     const { map: here, vehicle } = this.store.state;

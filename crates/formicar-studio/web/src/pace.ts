@@ -2,7 +2,7 @@
 
 import type { Frame } from "./store";
 
-/** Milliseconds by kind, where there is time. */
+/** Milliseconds by kind, if the budget allows. */
 const BASE_MS: Record<Frame["type"], number> = {
   iteration: 120,
   generation: 120,

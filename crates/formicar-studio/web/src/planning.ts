@@ -1,4 +1,4 @@
-/** Plans asked for, and what comes of them: one under way in each slot, the newest wish next. */
+/** Orders of plans and their answers: one under way in each slot, the newest wish next. */
 
 import type { Connection } from "./connection";
 import type { AnswerMessage, ImprovedFrame, Request, Slot } from "./protocol";
@@ -42,7 +42,7 @@ export class Planning {
   private nPlans = 0;
   private readonly lines: Record<Slot, Line> = { a: idle(), b: idle() };
 
-  /** `answered` hears of every answer that is not outdated. */
+  /** `answered` is called with every answer that is not outdated. */
   constructor(
     private readonly store: Store,
     private readonly connection: Connection,
@@ -62,7 +62,7 @@ export class Planning {
     this.connection.send({ type: "cancel", slot });
   }
 
-  /** Forgets a slot: the map is another, or the line broke. */
+  /** Clears a slot after a change of the map or a lost connection. */
   forget(slot: Slot): void {
     Object.assign(this.lines[slot], idle());
   }

@@ -10,7 +10,7 @@ export type Pose = [number, number, number];
 /** A planner's configuration document; its shape is the JSON schema of the catalog. */
 export type Config = { planner: string; [section: string]: unknown };
 
-/** A place to pass on the way, with any heading where none is given. */
+/** A point to pass on the way, with the given heading or any. */
 export interface Via {
   at: [number, number];
   heading?: number;

@@ -52,7 +52,7 @@ export interface SlotState {
   seed: number;
   plan: PlanState | null;
   driven: DrivenMessage | null;
-  /** The drive waits where it is: the way on is being replanned. */
+  /** The vehicle waits at its pose while the rest of the path is replanned. */
   isHeld?: boolean;
 }
 

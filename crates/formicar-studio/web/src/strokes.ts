@@ -33,7 +33,7 @@ export class Strokes {
     return true;
   }
 
-  /** Ends the stroke; null where it has changed nothing. */
+  /** Ends the stroke; null if it changed nothing. */
   end(): StrokeEdit | null {
     const { map } = this.store.state;
     const { before } = this;

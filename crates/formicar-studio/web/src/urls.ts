@@ -2,7 +2,7 @@
 
 const PARAMETER = "token";
 
-/** The same address with the page's token, where it has one. */
+/** The same address with the page's token, if it has one. */
 export function withToken(url: string): string {
   const token = new URLSearchParams(location.search).get(PARAMETER);
   if (token === null) return url;

@@ -29,7 +29,7 @@ export class Camera {
     this.listeners.push(call);
   }
 
-  /** Shows the whole of a map in a view of a size, beside or below the tools where there is room. */
+  /** Fits the whole map into a view, beside or below the tools if there is room. */
   fit(grid: Grid, widthPx: number, heightPx: number): void {
     const { low, high } = bounds(grid);
     const [widthM, heightM] = [high[0] - low[0], high[1] - low[1]];
@@ -54,7 +54,7 @@ export class Camera {
     this.tell();
   }
 
-  /** Zooms by a factor about a place that stays where it is. */
+  /** Zooms by a factor about a fixed point. */
   zoom(factor: number, [x, y]: Point): void {
     this.isFitted = false;
     const before = this.pxPerM;

@@ -162,7 +162,7 @@ function drawVia(sheet: Sheet, { at, heading }: Via, place: string): void {
   if (view.shows(at[0], at[1])) label(sheet, place, [x, y], colors.goal, VIA_PX + 3);
 }
 
-/** Filled where the vehicle stands, a ring where it should go. */
+/** A filled disc at the start, a ring at the goal. */
 function drawDot(sheet: Sheet, pose: Pose, end: End, isHeld: boolean): void {
   const { colors } = sheet;
   const color = end === "start" ? colors.start : colors.goal;

@@ -21,7 +21,7 @@ export function drawFailure(sheet: Sheet, map: MapState, answer: Answer): void {
   );
 }
 
-/** The reason in words; null where there is a path. */
+/** The reason for the failure; null if there is a path. */
 export function reasonOf(answer: Answer): string | null {
   if (answer.path) return null;
   if (answer.status === "cancelled") return null;

@@ -1,4 +1,4 @@
-/** The grid as an image of a pixel per cell, brought up to date where it has changed. */
+/** The grid as an image with a pixel per cell; only changed cells are redrawn. */
 
 import { changesSince } from "../cells";
 import type { Region } from "../protocol";

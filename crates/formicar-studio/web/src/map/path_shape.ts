@@ -10,7 +10,7 @@ export interface PathShape {
   heading: Float64Array;
   /** Arc length from the start, meters. */
   s: Float64Array;
-  /** Clearance in meters, where it is known. */
+  /** Clearance in meters, if known. */
   clearance: Float64Array | null;
   /** Stretches of one gear: the first and the last sample of each. */
   runs: { from: number; to: number; gear: 1 | -1 }[];
@@ -82,7 +82,7 @@ export function poseAt(shape: PathShape, s: number): Pose {
   ];
 }
 
-/** The clearance at an arc length; null where it is not known. */
+/** The clearance at an arc length; null if unknown. */
 export function clearanceAt(shape: PathShape, s: number): number | null {
   if (shape.clearance === null) return null;
   const b = Math.min(firstBeyond(shape.s, s), shape.n - 1);

@@ -18,7 +18,7 @@ export interface Scene {
   shape: PathShape | null;
 }
 
-/** Null where there is nothing to show yet. */
+/** Null if there is nothing to show yet. */
 export function sceneOf(state: Readonly<State>, slot: Slot): Scene | null {
   const { map } = state;
   const side = state.slots[slot];

@@ -43,7 +43,7 @@ export function drawPassages(sheet: Sheet, map: MapState, frame: IterationFrame)
   drawBest(sheet, best);
 }
 
-/** Draws ants on their ways, after so many seconds. */
+/** Draws ants on their paths after a time in seconds. */
 export function drawWalkers(
   sheet: Sheet,
   map: MapState,

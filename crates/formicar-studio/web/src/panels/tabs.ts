@@ -52,7 +52,7 @@ export class Tabs {
     dispatchEvent(new Event("resize"));
   }
 
-  /** Opens a panel, or closes it where it is open. */
+  /** Opens a panel, or closes it if it is open. */
   toggle(id: string): void {
     this.open(this.root.dataset.tab === id ? "" : id);
   }

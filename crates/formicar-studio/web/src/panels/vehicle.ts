@@ -20,7 +20,7 @@ const BODY = [
   "track_width_m",
   "safety_margin_m",
 ];
-/** One of them sets the limit; whoever sets one leaves the others out. */
+/** Exactly one of them sets the limit; the others are left out. */
 const STEERING = ["max_steer_deg", "max_steer_rad", "min_turning_radius_m"];
 const MOTION = ["speed_mps", "max_steer_rate_rad_per_s"];
 const RARE = ["footprint"];

@@ -37,7 +37,7 @@ export class VehicleDrawing {
   private scale = 1;
   private center: [number, number] = [0, 0];
 
-  /** `change` hears the measures when a handle is let go. */
+  /** `change` gets the measures when a handle is released. */
   constructor(private readonly change: (values: VehicleParameters) => void) {
     this.element = s("svg", {
       class: "vehicle-drawing",

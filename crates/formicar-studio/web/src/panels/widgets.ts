@@ -81,7 +81,7 @@ export interface NumberOptions {
   placeholder?: string;
 }
 
-/** An input of one number: it hears of it only when it is within its range. */
+/** An input of one number; `change` gets only numbers within the range. */
 export class NumberInput {
   readonly element: HTMLInputElement;
 

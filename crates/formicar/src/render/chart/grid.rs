@@ -90,7 +90,7 @@ impl ChartGrid {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Dots, SERIES_LOOKS, Series};
+    use crate::render::chart::{Dots, SERIES_LOOKS, Series};
     use super::*;
     use crate::render::{BoxRow, DotFill};
 

@@ -102,7 +102,7 @@ fn span(values: impl Iterator<Item = f64>, scale: AxisScale) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Limit, Series};
+    use crate::render::chart::{Limit, Series};
     use super::*;
     use crate::geometry::Point2;
     use crate::render::palette;

@@ -23,7 +23,7 @@ export interface Context {
 
 export interface Field {
   readonly element: HTMLElement;
-  /** Shows a value; where it differs from the preset, the field is marked. */
+  /** Shows a value and marks the field if it differs from the preset. */
   show(value: unknown, preset: unknown): void;
   /** Tells what takes the place of a number that is left out. */
   hint?(value: number | null): void;
