@@ -6,8 +6,8 @@ use formicar::geometry::{Point2, Pose2};
 use formicar::map::{Cell, OCCUPIED, OccupancyGrid};
 use formicar::numeric::Seed;
 use formicar::planner::{Outcome, Plan, Planner, PlannerConfig, PlannerName};
-use formicar::scenario::{MotionMode, Request};
-use formicar::vehicle::Vehicle;
+use formicar::scenario::Request;
+use formicar::vehicle::{Gears, Vehicle};
 use libfuzzer_sys::fuzz_target;
 
 const N_COLS: u8 = 60;
@@ -46,9 +46,9 @@ fuzz_target!(|scene: Scene| {
     let vehicle = Vehicle::warehouse_amr();
     let name = PLANNERS[usize::from(scene.planner) % PLANNERS.len()];
     let request = Request {
-        motion: match scene.forward_only {
-            true => MotionMode::Forward,
-            false => MotionMode::Reverse,
+        gears: match scene.forward_only {
+            true => Gears::Forward,
+            false => Gears::Both,
         },
         budget_steps: Some(BUDGET_STEPS),
         ..Request::new(pose(scene.start), pose(scene.goal))

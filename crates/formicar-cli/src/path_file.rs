@@ -59,8 +59,8 @@ pub(crate) fn read(path: &Path, vehicle: &Vehicle) -> Result<PathFile> {
     let polyline = || Some(CurvePath::from_polyline(&samples.points));
     let (path, exchanged) = match (vehicle.motion(), &samples.headings) {
         (Motion::Point, _) => (polyline(), None),
-        (Motion::Car, Some(_)) => (samples.path(Direction::Forward), None),
-        (Motion::Car, None) => (
+        (_, Some(_)) => (samples.path(Direction::Forward), None),
+        (_, None) => (
             samples.path(Direction::Forward),
             samples.path(Direction::Reverse),
         ),

@@ -36,11 +36,11 @@ fn request_flags(request: &RequestDocument) -> Vec<String> {
     let goals = goals.chain(request.goals.iter().flatten().copied());
     let tolerance = request.goal_tolerance;
     let curvature = request.curvature.map(|curvature| match curvature {
-        CurvatureMode::Arcs => String::new(),
         CurvatureMode::Continuous(rate) => rate.max_rate_per_m2.map_or_else(
             || "--continuous-curvature".to_owned(),
             |rate| format!("--continuous-curvature={rate}"),
         ),
+        _ => String::new(),
     });
     let flags = [
         word("--motion", request.motion),

@@ -8,12 +8,12 @@ use formicar::geometry::Pose2;
 use formicar::map::{BitGrid, Cell, DiagonalRule, GridFrame, MoveMasks, OCCUPIED, OccupancyGrid};
 use formicar::path::GridPath;
 use formicar::progress::Limits;
-use formicar::scenario::{GoalHeading, MotionMode, Request, StartHeading};
+use formicar::scenario::{GoalHeading, Request, StartHeading};
 use formicar::search::{AstarWorkspace, astar};
 use formicar::smoothing::{
     SmoothingConfig, SmoothingProblem, TwoTurning, remove_redundant_nodes, smooth,
 };
-use formicar::vehicle::Vehicle;
+use formicar::vehicle::{Gears, Vehicle};
 use support::{HOOD_RESOLUTION_M, hood};
 
 const RULE: DiagonalRule = DiagonalRule::NoObstacles;
@@ -77,7 +77,7 @@ fn free_ends(request: &Request) -> Request {
     Request {
         start_heading: StartHeading::Any,
         goal_heading: GoalHeading::Any,
-        motion: MotionMode::Forward,
+        gears: Gears::Forward,
         ..request.clone()
     }
 }

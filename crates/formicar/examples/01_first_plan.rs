@@ -4,12 +4,9 @@
 #![allow(clippy::print_stdout, reason = "an example talks to its reader")]
 
 use formicar::map::builtin::BuiltinMap;
-use formicar::numeric::Seed;
 use formicar::objective::DriveCost;
-use formicar::planner::{self, PlannerConfig};
-use formicar::render::{PlanPicture, plan_picture};
-use formicar::scenario::Scenario;
-use formicar::vehicle::Vehicle;
+use formicar::render::Picture;
+use formicar::{PlannerConfig, Scenario, Seed, Vehicle};
 use std::{error::Error, fs, path::Path};
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -32,28 +29,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         ..PlannerConfig::default()
     };
     // `()` watches nothing and never cancels; the same seed gives the same path.
-    let plan = planner::plan(&scenario, &config, Seed(7), &mut ())?.found()?;
+    let plan = formicar::plan(&scenario, &config, Seed(7), &mut ())?.found()?;
 
-    let caption = format!(
-        "{:.2} m, clearance {:.2} m, {} cusps",
-        plan.metrics.length_m, plan.certificate.min_clearance_m, plan.metrics.n_cusps
-    );
-    println!("{caption}");
+    let picture = Picture {
+        title: "A first plan".to_owned(),
+        ..plan.picture(&map, scenario.vehicle())
+    };
+    println!("{}", picture.caption);
 
-    let tightest = plan.certificate.tightest.position();
-    let picture = plan_picture(&PlanPicture {
-        map: &map,
-        vehicle: scenario.vehicle(),
-        start: request.start,
-        goal: request.goal,
-        places: &[],
-        failure: None,
-        path: Some(&plan.path),
-        profile: &[],
-        tightest: Some((tightest, plan.certificate.min_clearance_m)),
-        title: "A first plan",
-        caption: &caption,
-    });
     let folder = Path::new("formicar-examples");
     fs::create_dir_all(folder)?;
     fs::write(folder.join("01_first_plan.svg"), picture.to_svg())?;

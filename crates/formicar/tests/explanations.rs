@@ -8,9 +8,9 @@ use formicar::numeric::Seed;
 use formicar::path::CurvePath;
 use formicar::planner::{NotFound, Outcome, Planner, PlannerConfig, PlannerName};
 use formicar::progress::Status;
-use formicar::scenario::{GoalTolerance, MotionMode, Request, ViaPoint};
+use formicar::scenario::{GoalTolerance, Request, ViaPoint};
 use formicar::validation::{CURVATURE_TOLERANCE, judge_path};
-use formicar::vehicle::{Vehicle, VehicleParameters};
+use formicar::vehicle::{Gears, Vehicle, VehicleParameters};
 use std::f64::consts::PI;
 
 fn ask(map: &OccupancyGrid, vehicle: Vehicle, request: &Request) -> Outcome {
@@ -122,7 +122,7 @@ fn a_corridor_that_the_vehicle_fits_is_not_called_too_narrow() {
         ..Vehicle::warehouse_amr().parameters().clone()
     });
     let back = Request {
-        motion: MotionMode::Forward,
+        gears: Gears::Forward,
         ..Request::new(Pose2::new(5.0, 0.6, 0.0), Pose2::new(2.0, 0.6, 0.0))
     };
     let failure = failure(&corridor(), broad.expect("a vehicle"), &back);
@@ -146,7 +146,7 @@ fn of_several_goals_the_one_with_the_widest_way_is_told_of() {
     }
     for (goal, other) in [(sealed, open), (open, sealed)] {
         let back = Request {
-            motion: MotionMode::Forward,
+            gears: Gears::Forward,
             other_goals: vec![other],
             ..Request::new(Pose2::new(4.0, 0.6, 0.0), goal)
         };
@@ -161,7 +161,7 @@ fn of_several_goals_the_one_with_the_widest_way_is_told_of() {
 fn a_budget_that_ends_while_other_headings_are_tried_names_the_leg_behind() {
     // Through a dead end to what lies behind the start: forward only there is no second leg.
     let request = Request {
-        motion: MotionMode::Forward,
+        gears: Gears::Forward,
         via: vec![ViaPoint::new(Point2::new(6.0, 0.6))],
         budget_steps: Some(100),
         ..Request::new(Pose2::new(4.0, 0.6, 0.0), Pose2::new(2.0, 0.6, 0.0))

@@ -8,18 +8,18 @@ use formicar::numeric::Seed;
 use formicar::objective::{DriveCost, DriveMeter, SoftCost};
 use formicar::path::{CurvePath, Direction};
 use formicar::progress::{Limits, Status};
-use formicar::scenario::{MotionMode, Request};
+use formicar::scenario::Request;
 use formicar::search::{DrivableMap, DriveProblem, HybridAstarConfig, hybrid_astar};
 use formicar::smoothing::{ImproveConfig, ImproveProblem, Improved, Improver};
 use formicar::validation::judge;
-use formicar::vehicle::Vehicle;
+use formicar::vehicle::{Gears, Vehicle};
 use proptest::prelude::*;
 
 /// A free chain of arcs on a map.
 struct Case {
     obstacles: ObstacleMap,
     vehicle: Vehicle,
-    motion: MotionMode,
+    gears: Gears,
     start: Pose2,
     arcs: Vec<Arc>,
 }
@@ -30,7 +30,7 @@ impl Case {
         let case = Self {
             obstacles: ObstacleMap::new(&OccupancyGrid::from_rows(rows, 0.2).unwrap()),
             vehicle,
-            motion: MotionMode::Reverse,
+            gears: Gears::Both,
             start,
             arcs: arcs.to_vec(),
         };
@@ -52,7 +52,7 @@ impl Case {
         let frame = self.obstacles.frame();
         let [start, goal] = [self.start, self.end()].map(|pose| frame.to_world(pose));
         let request = Request {
-            motion: self.motion,
+            gears: self.gears,
             ..Request::new(start, goal)
         };
         let report = judge(&self.obstacles, &self.vehicle, &request, &self.path(arcs));
@@ -80,7 +80,7 @@ impl Case {
             obstacles: &self.obstacles,
             body: &body,
             radius_m: self.vehicle.min_turning_radius_m(),
-            motion: self.motion,
+            gears: self.gears,
             cost,
             soft,
         };
@@ -120,7 +120,7 @@ fn rows(yard: &[String]) -> Vec<&str> {
 }
 
 /// The first free pair of a random map that hybrid A* joins.
-fn random_case(vehicle: Vehicle, motion: MotionMode, seed: u64) -> Option<Case> {
+fn random_case(vehicle: Vehicle, gears: Gears, seed: u64) -> Option<Case> {
     let parameters = ScatterParameters {
         n_cols: 120,
         n_rows: 100,
@@ -134,7 +134,7 @@ fn random_case(vehicle: Vehicle, motion: MotionMode, seed: u64) -> Option<Case> 
         .ok()?
         .first()?;
     let request = Request {
-        motion,
+        gears,
         ..Request::new(start, goal)
     };
     let config = HybridAstarConfig {
@@ -150,7 +150,7 @@ fn random_case(vehicle: Vehicle, motion: MotionMode, seed: u64) -> Option<Case> 
     Some(Case {
         obstacles,
         vehicle,
-        motion,
+        gears,
         start,
         arcs,
     })
@@ -173,8 +173,8 @@ proptest! {
         forward in any::<bool>(),
     ) {
         let vehicles = [Vehicle::lei2020(), Vehicle::warehouse_amr(), Vehicle::f1tenth()];
-        let motion = if forward { MotionMode::Forward } else { MotionMode::Reverse };
-        if let Some(case) = random_case(vehicles[which].clone(), motion, seed) {
+        let gears = if forward { Gears::Forward } else { Gears::Both };
+        if let Some(case) = random_case(vehicles[which].clone(), gears, seed) {
             let cost = DriveCost::default();
             let improved = case.improve(&cost, &quick(), None);
             prop_assert!(improved.cost_m <= improved.start_cost_m);
@@ -188,7 +188,7 @@ proptest! {
 
 #[test]
 fn a_budget_ends_it_with_what_there_is() {
-    let case = random_case(Vehicle::lei2020(), MotionMode::Reverse, 3).unwrap();
+    let case = random_case(Vehicle::lei2020(), Gears::Both, 3).unwrap();
     let (cost, config) = (DriveCost::default(), ImproveConfig::default());
     let whole = case.improve(&cost, &config, None);
     assert_eq!(whole.ended, None);
@@ -296,7 +296,7 @@ fn without_operators() -> ImproveConfig {
 
 #[test]
 fn without_operators_nothing_changes_and_nothing_is_no_path() {
-    let case = random_case(Vehicle::lei2020(), MotionMode::Reverse, 3).unwrap();
+    let case = random_case(Vehicle::lei2020(), Gears::Both, 3).unwrap();
     let off = without_operators();
     let improved = case.improve(&DriveCost::default(), &off, None);
     assert_eq!(improved.arcs, DriveMeter::merged(&case.arcs));
@@ -310,7 +310,7 @@ fn without_operators_nothing_changes_and_nothing_is_no_path() {
 
 #[test]
 fn each_operator_improves_alone() {
-    let case = random_case(Vehicle::lei2020(), MotionMode::Reverse, 11).unwrap();
+    let case = random_case(Vehicle::lei2020(), Gears::Both, 11).unwrap();
     let off = without_operators();
     let alone = [
         ImproveConfig {

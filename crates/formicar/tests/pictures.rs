@@ -42,17 +42,12 @@ fn profile(path: &CurvePath) -> Vec<ProfilePoint> {
 fn plan(map: &OccupancyGrid, title: &str) -> Picture {
     let (vehicle, path) = (Vehicle::lei2020(), path());
     plan_picture(&PlanPicture {
-        map,
-        vehicle: &vehicle,
-        start: path.start(),
-        goal: path.end(),
-        places: &[],
-        failure: None,
         path: Some(&path),
         profile: &profile(&path),
         tightest: Some((Point2::new(5.0, 5.0), 0.12)),
         title,
         caption: "found",
+        ..PlanPicture::new(map, &vehicle, path.start(), path.end())
     })
 }
 
@@ -147,18 +142,12 @@ fn a_failure_rings_its_gap_and_draws_colliding_cells() {
         }),
         ..Explanation::default()
     };
+    let [start, goal] = [3.0, 6.0].map(|x| Pose2::new(x, 4.0, 0.0));
     let picture = PlanPicture {
-        map: &map,
-        vehicle: &vehicle,
-        start: Pose2::new(3.0, 4.0, 0.0),
-        goal: Pose2::new(6.0, 4.0, 0.0),
-        places: &[],
         failure: Some(&failure),
-        path: None,
-        profile: &[],
-        tightest: None,
         title: "none",
         caption: "no_path",
+        ..PlanPicture::new(&map, &vehicle, start, goal)
     };
     let svg = plan_picture(&picture).to_svg();
     check(&svg);
@@ -169,19 +158,12 @@ fn a_failure_rings_its_gap_and_draws_colliding_cells() {
 
 #[test]
 fn a_failure_is_drawn_with_its_reason() {
-    let vehicle = Vehicle::sedan();
+    let (map, vehicle) = (room(), Vehicle::sedan());
+    let nowhere = Pose2::new(1e9, f64::NAN, 0.0);
     let failure = PlanPicture {
-        map: &room(),
-        vehicle: &vehicle,
-        start: Pose2::new(3.0, 4.0, 0.0),
-        goal: Pose2::new(1e9, f64::NAN, 0.0),
-        places: &[],
-        failure: None,
-        path: None,
-        profile: &[],
-        tightest: None,
         title: "none",
         caption: "no_path: the gap is closed",
+        ..PlanPicture::new(&map, &vehicle, Pose2::new(3.0, 4.0, 0.0), nowhere)
     };
     let svg = plan_picture(&failure).to_svg();
     check(&svg);

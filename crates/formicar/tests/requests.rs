@@ -9,9 +9,9 @@ use formicar::numeric::Seed;
 use formicar::path::CurvePath;
 use formicar::planner::{Outcome, Plan, Planner, PlannerConfig, PlannerName};
 use formicar::progress::Status;
-use formicar::scenario::{MotionMode, Request, StartHeading, ViaPoint};
+use formicar::scenario::{Request, StartHeading, ViaPoint};
 use formicar::validation::judge;
-use formicar::vehicle::Vehicle;
+use formicar::vehicle::{Gears, Vehicle};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 fn planner(map: &OccupancyGrid, vehicle: Vehicle, name: PlannerName) -> Planner {
@@ -242,7 +242,7 @@ fn where_a_heading_of_its_own_choice_leads_no_further_others_are_tried() {
     // The short way to the via point is to the left, against the goal's heading.
     let mut request = Request {
         start_heading: StartHeading::Any,
-        motion: MotionMode::Forward,
+        gears: Gears::Forward,
         ..Request::new(Pose2::new(5.6, 0.8, 0.0), Pose2::new(5.6, 10.4, PI))
     };
     request.via = vec![ViaPoint::new(Point2::new(0.8, 4.0))];
@@ -252,7 +252,7 @@ fn where_a_heading_of_its_own_choice_leads_no_further_others_are_tried() {
     };
     let past_via_alone = Request {
         start_heading: StartHeading::Any,
-        motion: MotionMode::Forward,
+        gears: Gears::Forward,
         ..past_via_alone
     };
     let own_choice = found(drive(&map, &past_via_alone)).path.end().heading;

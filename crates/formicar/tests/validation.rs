@@ -4,9 +4,9 @@ use formicar::collision::ObstacleMap;
 use formicar::geometry::{Point2, Pose2};
 use formicar::map::{GridFrame, OccupancyGrid};
 use formicar::path::{CurvePath, CurveSegment, Direction};
-use formicar::scenario::{GoalHeading, MotionMode, Request};
+use formicar::scenario::{GoalHeading, Request};
 use formicar::validation::{Report, ViolationKind, judge, judge_path};
-use formicar::vehicle::Vehicle;
+use formicar::vehicle::{Gears, Vehicle};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 fn yard() -> OccupancyGrid {
@@ -178,7 +178,7 @@ fn ends_and_gears_as_requested() {
     let mut back = CurvePath::new(goal);
     back.push(0.0, 6.0, Direction::Reverse);
     let forward = Request {
-        motion: MotionMode::Forward,
+        gears: Gears::Forward,
         ..Request::new(goal, START)
     };
     assert_eq!(kinds(&verdict(&forward, &back)), [ViolationKind::Gear]);

@@ -10,7 +10,8 @@ use formicar::collision::ObstacleMap;
 use formicar::map::builtin::BuiltinMap;
 use formicar::map::format::write_atomically;
 use formicar::numeric::counted;
-use formicar::scenario::{GoalTolerance, MotionMode, Request};
+use formicar::scenario::{GoalTolerance, Request};
+use formicar::vehicle::Gears;
 use formicar_lab::rival::import::{Imported, read};
 use formicar_lab::run::{
     Evaluation, OWN_VEHICLE, Origin, Run, RunRecord, RunStatus, read_csv, to_csv,
@@ -52,8 +53,8 @@ pub(crate) struct ImportArgs {
 
     /// Gears that the planner could use.
     #[arg(long, value_name = "MODE", default_value = "reverse",
-          value_parser = values::word::<MotionMode>(&["forward", "reverse"]))]
-    motion: MotionMode,
+          value_parser = values::word::<Gears>(&["forward", "reverse"]))]
+    motion: Gears,
 
     /// Tolerance at the goal, meters and radians: planners over grids of poses seldom end nearer
     /// than a cell.
@@ -130,7 +131,7 @@ impl Place {
         let hint = "the map has no start and goal; hint: --scenario F, or a built-in map";
         let [start, goal] = ground.ends.context(hint)?;
         let request = Request {
-            motion: args.motion,
+            gears: args.motion,
             goal_tolerance: args.goal_tolerance.unwrap_or_default(),
             ..Request::new(start, goal)
         };
@@ -226,10 +227,7 @@ fn run_of(args: &ImportArgs, place: &Place, imported: &Imported, seed: u64) -> R
 }
 
 fn origin(args: &ImportArgs, place: &Place) -> Origin {
-    let motion = match args.motion {
-        MotionMode::Forward => "forward",
-        MotionMode::Reverse => "reverse",
-    };
+    let motion = args.motion.name();
     let vehicle = args.ground.vehicle.as_deref().unwrap_or(OWN_VEHICLE);
     Origin {
         vehicle: vehicle.to_owned(),

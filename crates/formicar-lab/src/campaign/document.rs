@@ -5,7 +5,7 @@ use super::scenarios::ScenariosEntry;
 use super::seeds::seeds;
 use anyhow::Result;
 use formicar::planner::PlannerName;
-use formicar::scenario::MotionMode;
+use formicar::vehicle::Gears;
 use serde::Deserialize;
 use std::str::FromStr;
 use toml::{Spanned, Value};
@@ -20,7 +20,7 @@ pub struct Document {
     /// The seeds, in order.
     pub seeds: Vec<u64>,
     /// Motion modes, in order.
-    pub motions: Vec<MotionMode>,
+    pub motions: Vec<Gears>,
     /// Search steps after which a run gives up.
     pub budget_steps: Option<u64>,
     /// Time after which a run gives up, milliseconds.
@@ -125,16 +125,16 @@ where
 }
 
 /// One motion mode or a list of them; both gears where nothing is said.
-fn motions(value: Option<&Spanned<Value>>, text: &Text) -> Result<Vec<MotionMode>> {
+fn motions(value: Option<&Spanned<Value>>, text: &Text) -> Result<Vec<Gears>> {
     let Some(value) = value else {
-        return Ok(vec![MotionMode::default()]);
+        return Ok(vec![Gears::default()]);
     };
     let expected = "expected \"reverse\" (both gears), \"forward\", or a list of both";
     let words = match value.get_ref() {
         Value::Array(list) => &list[..],
         word => std::slice::from_ref(word),
     };
-    let modes: Option<Vec<MotionMode>> = words.iter().map(motion).collect();
+    let modes: Option<Vec<Gears>> = words.iter().map(motion).collect();
     let Some(modes) = modes.filter(|modes| !modes.is_empty()) else {
         return Err(text.mistake(Some(value.span()), expected));
     };
@@ -148,10 +148,10 @@ fn motions(value: Option<&Spanned<Value>>, text: &Text) -> Result<Vec<MotionMode
     }
 }
 
-fn motion(value: &Value) -> Option<MotionMode> {
+fn motion(value: &Value) -> Option<Gears> {
     match value.as_str()? {
-        "forward" => Some(MotionMode::Forward),
-        "reverse" => Some(MotionMode::Reverse),
+        "forward" => Some(Gears::Forward),
+        "reverse" => Some(Gears::Both),
         _ => None,
     }
 }
@@ -252,7 +252,7 @@ mod tests {
     fn what_is_left_out_is_the_default() {
         let document = read(SCENARIOS).unwrap();
         assert_eq!(document.seeds, [0]);
-        assert_eq!(document.motions, [MotionMode::Reverse]);
+        assert_eq!(document.motions, [Gears::Both]);
         assert_eq!(document.planners[0].name.get_ref(), "formicar");
         assert!(document.vehicles.is_empty() && !document.is_cold);
     }

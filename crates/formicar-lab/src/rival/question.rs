@@ -4,8 +4,8 @@ use anyhow::{Result, bail};
 use formicar::collision::ObstacleMap;
 use formicar::map::{BitGrid, Cell, GridFrame};
 use formicar::numeric::Seed;
-use formicar::scenario::{GoalTolerance, MotionMode, Request};
-use formicar::vehicle::{Motion, Vehicle};
+use formicar::scenario::{GoalTolerance, Request};
+use formicar::vehicle::{Gears, Vehicle};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 
@@ -44,7 +44,7 @@ pub struct RivalRequest {
     /// x, y, heading.
     pub goal: [f64; 3],
     /// Which gears may be used: `reverse` allows both.
-    pub motion: MotionMode,
+    pub motion: Gears,
     /// How far the end may be off the goal.
     pub goal_tolerance: GoalTolerance,
     /// Time after which to give up, milliseconds.
@@ -106,7 +106,7 @@ impl Question {
                 vehicle: RivalVehicle::new(vehicle),
                 start: list(request.start),
                 goal: list(request.goal),
-                motion: request.motion,
+                motion: request.gears,
                 goal_tolerance: request.goal_tolerance,
                 deadline_ms: request.deadline.map(|time| time.as_secs_f64() * 1e3),
                 seed,
@@ -119,11 +119,7 @@ impl RivalVehicle {
     fn new(vehicle: &Vehicle) -> Self {
         let corners = vehicle.footprint().corners().iter();
         Self {
-            motion: match vehicle.motion() {
-                Motion::Car => "car",
-                Motion::Point => "point",
-            }
-            .to_owned(),
+            motion: vehicle.motion().name().to_owned(),
             footprint: corners.map(|corner| [corner.x, corner.y]).collect(),
             wheelbase_m: vehicle.wheelbase_m(),
             min_turning_radius_m: vehicle.min_turning_radius_m(),

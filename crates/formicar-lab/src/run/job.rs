@@ -1,7 +1,7 @@
 //! The job of one run: scenario, vehicle, planner, seed and limits.
 
 use formicar::planner::PlannerName;
-use formicar::scenario::MotionMode;
+use formicar::vehicle::Gears;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -103,7 +103,7 @@ pub struct RivalCommand {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Limits {
     /// The gears that may be used.
-    pub motion: Option<MotionMode>,
+    pub motion: Option<Gears>,
     /// Search steps after which a run gives up.
     pub budget_steps: Option<u64>,
     /// Time after which a run gives up, milliseconds.
@@ -158,10 +158,7 @@ impl Job {
 
     /// The motion mode's name.
     pub fn motion_name(&self) -> &'static str {
-        match self.limits.motion.unwrap_or_default() {
-            MotionMode::Forward => "forward",
-            MotionMode::Reverse => "reverse",
-        }
+        self.limits.motion.unwrap_or_default().name()
     }
 }
 

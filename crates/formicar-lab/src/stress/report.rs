@@ -26,14 +26,14 @@ impl Case {
         let frame = drawn.map.frame();
         let request = &drawn.request;
         let about = format!(
-            "{}{}, {} x {} cells of {:.3} m, {}, {:?}, start {:?}, goal {:?}, {} goals, {} via points",
+            "{}{}, {} x {} cells of {:.3} m, {}, {}, start {:?}, goal {:?}, {} goals, {} via points",
             drawn.kind.name(),
             if drawn.is_sealed { " (sealed)" } else { "" },
             frame.n_cols(),
             frame.n_rows(),
             frame.resolution_m(),
             drawn.vehicle_name,
-            request.motion,
+            request.gears.name(),
             request.start_heading,
             request.goal_heading,
             1 + request.other_goals.len(),

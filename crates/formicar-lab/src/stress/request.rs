@@ -3,7 +3,8 @@
 use formicar::collision::{Body, Drive, ObstacleMap};
 use formicar::geometry::{Point2, Pose2};
 use formicar::numeric::RandomStream;
-use formicar::scenario::{GoalHeading, GoalTolerance, MotionMode, Request, StartHeading, ViaPoint};
+use formicar::scenario::{GoalHeading, GoalTolerance, Request, StartHeading, ViaPoint};
+use formicar::vehicle::Gears;
 use std::f64::consts::PI;
 
 /// Random poses that may be tried before one is free.
@@ -40,9 +41,9 @@ pub(super) fn draw(
         1 => GoalHeading::Bidirectional,
         _ => GoalHeading::Exact,
     };
-    let motion = match random.below(3) {
-        0 => MotionMode::Forward,
-        _ => MotionMode::Reverse,
+    let gears = match random.below(3) {
+        0 => Gears::Forward,
+        _ => Gears::Both,
     };
     let goal_tolerance = tolerance(random).unwrap_or_default();
     let request = Request {
@@ -51,7 +52,7 @@ pub(super) fn draw(
         start_heading,
         goal_heading,
         goal_tolerance,
-        motion,
+        gears,
         ..Request::new(start, goal)
     };
     (request, all_free)

@@ -8,6 +8,17 @@ use std::sync::OnceLock;
 use xxhash_rust::xxh3::xxh3_128;
 
 /// The lethal cells of a map, those on the rim of an obstacle, and the distance transform.
+///
+/// ```
+/// use formicar::collision::{Body, Drive, ObstacleMap};
+/// use formicar::{OccupancyGrid, Pose2, Vehicle};
+///
+/// let map = OccupancyGrid::from_rows(&["..........", "..........", "..........", "#########."], 1.0)?;
+/// let (obstacles, body) = (ObstacleMap::new(&map), Body::new(&Vehicle::warehouse_amr()));
+/// assert!(obstacles.is_free(&body, &Drive::at(Pose2::new(5.0, 2.5, 0.0))));
+/// assert!(!obstacles.is_free(&body, &Drive::at(Pose2::new(5.0, 0.9, 0.0))));
+/// # Ok::<(), formicar::MapError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct ObstacleMap {
     frame: GridFrame,

@@ -12,6 +12,13 @@ pub fn wrap_angle(angle_rad: f64) -> f64 {
 }
 
 /// The turn from `from` to `to`, in `(-pi, pi]`.
+///
+/// ```
+/// use formicar::geometry::angle_difference;
+/// use std::f64::consts::{FRAC_PI_2, PI};
+///
+/// assert!((angle_difference(-0.75 * PI, 0.75 * PI) - FRAC_PI_2).abs() < 1e-12);
+/// ```
 pub fn angle_difference(to: f64, from: f64) -> f64 {
     wrap_angle(to - from)
 }

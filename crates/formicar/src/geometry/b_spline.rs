@@ -7,6 +7,16 @@ use super::{Arc, Point2, Pose2, flattest_biarc};
 ///
 /// Cubic, with simple knots at whole numbers between fourfold ones at both ends (de Boor 1978);
 /// of fewer than four control points, of as high a degree as these allow.
+///
+/// ```
+/// use formicar::geometry::{BSpline, Point2};
+///
+/// let corners = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [8.0, 4.0]].map(|[x, y]| Point2::new(x, y));
+/// let spline = BSpline::new(corners.to_vec()).unwrap();
+/// assert_eq!(spline.at(0.0), corners[0]);
+/// assert_eq!(spline.at(spline.n_pieces() as f64), corners[3]);
+/// assert!(!spline.arcs(0.01).is_empty());
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct BSpline {
     points: Vec<Point2>,
@@ -15,7 +25,7 @@ pub struct BSpline {
 /// Degree where there are control points enough.
 const DEGREE: usize = 3;
 
-/// How often a piece of the spline is halved at most before it becomes a biarc.
+/// Most halvings of a piece of the spline before it becomes a biarc.
 const MAX_HALVINGS: u32 = 16;
 
 /// Places on a piece at which its distance from a biarc is measured.
@@ -152,7 +162,7 @@ impl BSpline {
         }
     }
 
-    /// Whether the spline between two parameters stays near arcs.
+    /// True if the spline between two parameters stays near arcs.
     fn is_near(&self, arcs: &[(Pose2, Arc)], [from, to]: [f64; 2], tolerance_m: f64) -> bool {
         (1..N_CHECKS).all(|i| {
             let share = f64::from(i) / f64::from(N_CHECKS);

@@ -45,7 +45,8 @@ fn over(chord_m: f64, angle: f64) -> Arc {
     Arc::new(2.0 * angle.sin() / chord_m, chord_m / sinc)
 }
 
-/// Where in (0, 1) a function is least: the best of a grid, then golden sections around it.
+/// The place in (0, 1) where a function is least: the best of a grid, then golden sections around
+/// it.
 fn least(value: impl Fn(f64) -> f64) -> f64 {
     const N_GRID: u32 = 16;
     const N_SECTIONS: u32 = 40;

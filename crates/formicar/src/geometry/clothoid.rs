@@ -33,6 +33,14 @@ impl Pose2 {
     /// `rate_per_m2` per metre of signed length; at rate 0 that is [`Pose2::advance`], bit for bit.
     ///
     /// The position is within 3e-13 of the driven length, the heading within rounding.
+    ///
+    /// ```
+    /// use formicar::Pose2;
+    ///
+    /// // The curvature grows from 0 to 0.2 1/m over 4 m: the heading turns by half of 0.2 * 4.
+    /// let end = Pose2::default().advance_clothoid(0.0, 0.05, 4.0);
+    /// assert!((end.heading - 0.4).abs() < 1e-12);
+    /// ```
     #[must_use]
     pub fn advance_clothoid(
         self,

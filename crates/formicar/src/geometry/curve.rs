@@ -4,6 +4,15 @@ use super::{Point2, Pose2};
 use std::iter;
 
 /// A line or arc by its curvature and its signed length.
+///
+/// ```
+/// use formicar::Pose2;
+/// use formicar::geometry::Arc;
+///
+/// let back = Arc::new(0.0, -3.0);
+/// assert_eq!(back.length_m(), 3.0);
+/// assert_eq!(back.end_from(Pose2::new(5.0, 1.0, 0.0)), Pose2::new(2.0, 1.0, 0.0));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Arc {
     /// Curvature, positive to the left; 0 on a line.
@@ -66,7 +75,7 @@ impl Arc {
         start.advance(bend, along_m.clamp(end_m.min(0.0), end_m.max(0.0)))
     }
 
-    /// Whether driving the other after this one is the same motion going on.
+    /// True if driving the other after this one continues the same motion.
     pub fn continues_in(self, next: Self) -> bool {
         self.curvature_per_m == next.curvature_per_m
             && (self.signed_length_m > 0.0) == (next.signed_length_m > 0.0)

@@ -1,4 +1,5 @@
-//! Points, poses, angles, polygons, curves of bounded curvature, splines, clothoids and biarcs in the plane.
+//! Points, poses, angles, polygons, curves of bounded curvature, splines, clothoids and biarcs in
+//! the plane.
 
 mod angle;
 mod b_spline;

@@ -4,6 +4,14 @@ use serde::{Deserialize, Serialize};
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// A point, or the vector to it; metres unless a caller says cells.
+///
+/// ```
+/// use formicar::Point2;
+///
+/// let (a, b) = (Point2::new(3.0, 4.0), Point2::new(-4.0, 3.0));
+/// assert_eq!((a.norm(), a.dot(b), a.cross(b)), (5.0, 0.0, 25.0));
+/// assert_eq!(a.perpendicular(), b);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Point2 {
     /// Coordinate along the first axis.
@@ -60,7 +68,7 @@ impl Point2 {
         self + (other - self) * t
     }
 
-    /// Whether both coordinates are finite.
+    /// True if both coordinates are finite.
     pub fn is_finite(self) -> bool {
         self.x.is_finite() && self.y.is_finite()
     }

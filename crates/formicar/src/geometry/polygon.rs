@@ -4,7 +4,7 @@ use super::{Point2, Pose2};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// What makes a list of points no convex polygon.
+/// A list of points that is no convex polygon.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum PolygonError {
@@ -41,6 +41,15 @@ pub enum PolygonError {
 }
 
 /// A convex polygon with counter-clockwise corners; collinear corners are dropped.
+///
+/// ```
+/// use formicar::geometry::{ConvexPolygon, Point2};
+///
+/// let body = ConvexPolygon::rectangle(Point2::new(-1.0, -0.5), Point2::new(3.0, 0.5));
+/// assert_eq!(body.area(), 4.0);
+/// assert!(body.contains(Point2::new(2.9, 0.4)));
+/// assert_eq!(body.grown(0.25).bounds().1, Point2::new(3.25, 0.75));
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct ConvexPolygon {
@@ -140,7 +149,7 @@ impl ConvexPolygon {
         Self { corners }
     }
 
-    /// Whether a point lies inside or on the boundary.
+    /// True if a point lies inside or on the boundary.
     pub fn contains(&self, point: Point2) -> bool {
         self.edges().all(|(a, b)| (b - a).cross(point - a) >= 0.0)
     }

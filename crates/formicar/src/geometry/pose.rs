@@ -7,6 +7,17 @@ use serde::{Deserialize, Serialize};
 /// A position in metres and a heading in radians, counter-clockwise from the x axis.
 ///
 /// As a vehicle's pose it is the centre of the rear axle.
+///
+/// ```
+/// use formicar::Pose2;
+/// use std::f64::consts::PI;
+///
+/// // Half a circle of radius 2 m to the left.
+/// let end = Pose2::new(1.0, 0.0, 0.0).advance(0.5, 2.0 * PI);
+/// assert!((end.y - 4.0).abs() < 1e-12 && (end.heading - PI).abs() < 1e-12);
+/// let there = Pose2::new(1.0, 0.0, 0.0).relative(end);
+/// assert!((there.x - 0.0).abs() < 1e-12 && (there.y - 4.0).abs() < 1e-12);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Pose2 {
     /// Position along the x axis, metres.
@@ -77,7 +88,7 @@ impl Pose2 {
         Self::at(self.position(), wrap_angle(self.heading))
     }
 
-    /// Whether all three numbers are finite.
+    /// True if all three numbers are finite.
     pub fn is_finite(self) -> bool {
         self.position().is_finite() && self.heading.is_finite()
     }

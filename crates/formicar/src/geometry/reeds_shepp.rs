@@ -19,6 +19,16 @@ use view::{Link, View};
 /// The shortest curve, or nothing where a number is not finite or the radius not positive.
 ///
 /// Its end meets `to` within 1e-9 of the largest of 1, the coordinates and the radius.
+///
+/// ```
+/// use formicar::Pose2;
+/// use formicar::geometry::reeds_shepp;
+///
+/// let (from, to) = (Pose2::new(10.0, 0.0, 0.0), Pose2::new(0.0, 0.0, 0.0));
+/// let curve = reeds_shepp::shortest(from, to, 2.0).unwrap();
+/// assert_eq!(curve.length_m(), 10.0);
+/// assert_eq!(curve.arcs()[0].signed_length_m, -10.0);
+/// ```
 pub fn shortest(from: Pose2, to: Pose2, radius_m: f64) -> Option<Curve> {
     let circles = TurningCircles::new(from, to, radius_m)?;
     let mut sink = Shortest {

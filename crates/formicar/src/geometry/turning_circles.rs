@@ -1,4 +1,4 @@
-//! What Dubins and Reeds-Shepp words have in common: the goal's turning circles seen from the
+//! Turning circles, common to Dubins and Reeds-Shepp words: those of the goal, seen from the
 //! start, and the ways to look for the shortest word.
 //!
 //! A word that begins on one turning circle and ends on another depends on nothing but the vector
@@ -9,7 +9,7 @@
 use super::{Curve, Point2, Pose2, wrap_angle};
 use std::f64::consts::{PI, TAU};
 
-/// How far below 0 rounding may push a length or a square and still mean 0.
+/// A length or a square that rounding pushed below 0 by at most this still means 0.
 pub(super) const SLACK: f64 = Curve::NEGLIGIBLE_RADII;
 
 /// Vectors between the centers of the start's and the goal's turning circles, in turning radii,

@@ -4,6 +4,15 @@ use super::Cell;
 use std::ops::Range;
 
 /// A set of cells of a grid, row by row in 64-bit words; bits past the last column are 0.
+///
+/// ```
+/// use formicar::map::{BitGrid, Cell};
+///
+/// let mut set = BitGrid::new(100, 3);
+/// set.insert(Cell::new(70, 1));
+/// assert!(set.get(70, 1) && !set.contains(-1, 0));
+/// assert_eq!((set.count(), set.complement().count()), (1, 299));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BitGrid {
     n_cols: usize,
@@ -82,14 +91,14 @@ impl BitGrid {
         window
     }
 
-    /// Whether a cell is in the set; cells outside the grid are not.
+    /// True if a cell is in the set; cells outside the grid are not.
     pub fn contains(&self, col: i64, row: i64) -> bool {
         let inside =
             (0..self.n_cols as i64).contains(&col) && (0..self.n_rows as i64).contains(&row);
         inside && self.get(col as usize, row as usize)
     }
 
-    /// Whether a cell of the grid is in the set.
+    /// True if a cell of the grid is in the set.
     pub fn get(&self, col: usize, row: usize) -> bool {
         self.words[row * self.words_per_row + col / 64] >> (col % 64) & 1 == 1
     }

@@ -1,9 +1,20 @@
-//! Which free cells hang together.
+//! Connected components of free cells.
 
 use super::{BitGrid, Cell, Connectivity};
 use std::ops::Range;
 
 /// Connected components of the free cells, numbered in the order of their first cells, row by row.
+///
+/// ```
+/// use formicar::OccupancyGrid;
+/// use formicar::map::{Cell, Components, Connectivity};
+///
+/// let map = OccupancyGrid::from_rows(&["..#.", "..#."], 1.0)?;
+/// let components = Components::new(&map.lethal_cells(), Connectivity::Eight);
+/// assert_eq!(components.n_components(), 2);
+/// assert!(!components.same(Cell::new(0, 0), Cell::new(3, 0)));
+/// # Ok::<(), formicar::MapError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Components {
     n_cols: usize,
@@ -63,7 +74,7 @@ impl Components {
         sizes.max_by_key(|&(_, size)| size).map(|(i, _)| i as u32)
     }
 
-    /// Whether two cells are free and in one component.
+    /// True if two cells are free and in one component.
     pub fn same(&self, a: Cell, b: Cell) -> bool {
         self.label(a)
             .is_some_and(|label| self.label(b) == Some(label))

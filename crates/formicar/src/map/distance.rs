@@ -16,6 +16,17 @@ const OFFSETS_PER_LOOK: usize = 4;
 /// obstacle above and below, a pass along the rows takes the lower envelope of parabolas
 /// (Felzenszwalb & Huttenlocher 2012), here as a plain minimum over the offsets that the
 /// truncation allows, many cells at once, ended as soon as no farther offset can matter.
+///
+/// ```
+/// use formicar::OccupancyGrid;
+/// use formicar::map::{Cell, DistanceField};
+///
+/// let map = OccupancyGrid::from_rows(&[".....", "....#"], 1.0)?;
+/// let field = DistanceField::new(&map.lethal_cells(), 16);
+/// assert_eq!(field.distance_cells(Cell::new(1, 0)), 3.0);
+/// assert_eq!(field.within(1.0).unwrap().count(), 3);
+/// # Ok::<(), formicar::MapError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DistanceField {
     n_cols: usize,

@@ -8,6 +8,16 @@ use crate::geometry::{Point2, Pose2};
 ///
 /// *Grid coordinates* are metres from the lower left corner along the grid's own axes; the origin
 /// (with its yaw) carries them to the world.
+///
+/// ```
+/// use formicar::map::{Cell, GridFrame};
+/// use formicar::{Point2, Pose2};
+///
+/// let frame = GridFrame::new(100, 80, 0.05, Pose2::new(-2.5, -2.0, 0.0))?;
+/// assert_eq!(frame.cell_at(Point2::new(0.01, 0.01)), Some(Cell::new(50, 40)));
+/// assert_eq!(frame.cell_at(Point2::new(3.0, 0.0)), None);
+/// # Ok::<(), formicar::MapError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GridFrame {
     n_cols: usize,

@@ -9,7 +9,7 @@ use super::values::{FREE, OCCUPIED, UNKNOWN, check_values, lethal};
 use crate::geometry::{Point2, Pose2};
 use serde::{Deserialize, Serialize};
 
-/// How unknown cells count.
+/// The meaning of unknown cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum UnknownPolicy {
@@ -24,6 +24,16 @@ pub enum UnknownPolicy {
 ///
 /// Only cells at 100 and unknown cells stop a vehicle; graded values are preferences at most.
 /// Values are row-major with row 0 at the bottom, as in a ROS `OccupancyGrid` message.
+///
+/// ```
+/// use formicar::OccupancyGrid;
+/// use formicar::map::{Cell, UNKNOWN};
+///
+/// let map = OccupancyGrid::from_rows(&["..#", "...", "?.."], 0.5)?;
+/// assert!(map.is_lethal(Cell::new(2, 2)) && !map.is_lethal(Cell::new(0, 1)));
+/// assert_eq!(map.value(Cell::new(0, 0)), UNKNOWN);
+/// # Ok::<(), formicar::MapError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct OccupancyGrid {
     frame: GridFrame,
@@ -126,7 +136,7 @@ impl OccupancyGrid {
         self
     }
 
-    /// Whether a cell stops the vehicle: occupied or unknown.
+    /// True if a cell stops the vehicle: occupied or unknown.
     pub fn is_lethal(&self, cell: Cell) -> bool {
         lethal(self.value(cell))
     }

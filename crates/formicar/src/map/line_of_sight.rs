@@ -8,12 +8,22 @@ use super::{BitGrid, Cell, DiagonalRule};
 use crate::geometry::Point2;
 use std::cmp::Ordering;
 
-/// Whether the closed segment from `a` to `b`, in cell units, is free of obstacles.
+/// True if the closed segment from `a` to `b`, in cell units, is free of obstacles.
 ///
 /// No cell that it touches may be blocked. Cells that it touches in nothing but a corner follow
 /// the diagonal rule: at each corner as many of them may be blocked as beside a diagonal step.
 /// Everything off the map is blocked; a segment that ends there, or at no finite point, is not
 /// free. The answer is exact for the coordinates given.
+///
+/// ```
+/// use formicar::map::{BitGrid, Cell, DiagonalRule, line_of_sight};
+/// use formicar::Point2;
+///
+/// let mut blocked = BitGrid::new(10, 10);
+/// blocked.insert(Cell::new(5, 5));
+/// let sees = |y| line_of_sight(&blocked, DiagonalRule::NoObstacles, Point2::new(1.5, y), Point2::new(9.5, y));
+/// assert!(sees(4.5) && !sees(5.5));
+/// ```
 pub fn line_of_sight(blocked: &BitGrid, rule: DiagonalRule, a: Point2, b: Point2) -> bool {
     if !on_map(blocked, a) || !on_map(blocked, b) {
         return false;
@@ -24,7 +34,7 @@ pub fn line_of_sight(blocked: &BitGrid, rule: DiagonalRule, a: Point2, b: Point2
     segment.is_free(blocked, rule, side)
 }
 
-/// Whether the center of one cell is seen from that of another, in integer arithmetic; the same
+/// True if the center of one cell is seen from that of another, in integer arithmetic; the same
 /// answer as [`line_of_sight`] gives, several times faster.
 pub fn cells_in_sight(blocked: &BitGrid, rule: DiagonalRule, from: Cell, to: Cell) -> bool {
     let (from, to) = (center(from), center(to));
@@ -79,7 +89,7 @@ fn on_grid(point: Point2, n_cols: usize, n_rows: usize) -> bool {
 struct Rising {
     a: Point2,
     b: Point2,
-    /// Whether columns count backward: column c of the map is column -1 - c here.
+    /// True if columns count backward: column c of the map is column -1 - c here.
     is_mirrored: bool,
 }
 
@@ -143,7 +153,7 @@ impl Rising {
         })
     }
 
-    /// Whether a blocked cell touches the segment in a corner alone, and not too many do so there.
+    /// True if a blocked cell touches the segment in a corner alone, and not too many do so there.
     fn is_pardoned(
         &self,
         blocked: &BitGrid,
@@ -209,7 +219,7 @@ impl Rising {
     }
 }
 
-/// Whether the cells of a row between two columns are all on the map and free, by whole words.
+/// True if the cells of a row between two columns are all on the map and free, by whole words.
 fn is_run_free(blocked: &BitGrid, row: i64, (first, last): (i64, i64)) -> bool {
     let on_map =
         first >= 0 && last < blocked.n_cols() as i64 && (0..blocked.n_rows() as i64).contains(&row);
@@ -235,7 +245,7 @@ mod tests {
     use crate::map::neighborhood::STEPS;
     use proptest::prelude::*;
 
-    /// Whether a segment in eighths of cells touches a cell: do its parameter intervals in the
+    /// True if a segment in eighths of cells touches a cell: do its parameter intervals in the
     /// cell's two slabs overlap?
     fn touches(a: [i64; 2], b: [i64; 2], cell: [i64; 2]) -> bool {
         // Fractions of the way from a to b as (numerator, positive denominator).

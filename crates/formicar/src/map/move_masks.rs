@@ -108,7 +108,7 @@ impl MoveMasks {
         Cell::new((index % n_cols) as u32, (index / n_cols) as u32)
     }
 
-    /// What each of [`STEPS`] adds to the place of a cell.
+    /// The change of a cell's index by each of [`STEPS`].
     pub fn offsets(&self) -> [isize; 8] {
         STEPS.map(|(dx, dy)| dy as isize * self.n_cols() as isize + dx as isize)
     }

@@ -1,4 +1,4 @@
-//! Which cells are next to which: 4, 8, rings, and when a diagonal step may pass a corner.
+//! Neighborhoods of 4 cells, 8 cells and rings, and the rules for diagonal steps past a corner.
 
 use super::Cell;
 use crate::parameters::Parameters;

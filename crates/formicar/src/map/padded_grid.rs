@@ -46,12 +46,12 @@ impl PaddedGrid {
         }
     }
 
-    /// How far off the map a window may begin or end, cells.
+    /// Most cells that a window may begin or end off the map.
     pub fn reach_cells(&self) -> usize {
         self.reach_cells
     }
 
-    /// Whether a window of cells holds none of the set: rows of words from the cell (`col`, `row`)
+    /// True if a window of cells holds none of the set: rows of words from the cell (`col`, `row`)
     /// on, lowest columns first, `words_per_row` of them per row.
     ///
     /// The window must not reach farther off the map than [`Self::reach_cells`].

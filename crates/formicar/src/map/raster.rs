@@ -50,7 +50,8 @@ fn closed_range(low: f64, high: f64, n: usize) -> std::ops::Range<usize> {
     first..end
 }
 
-/// Where the polygon meets the band `row <= y <= row + 1`, as intervals of x that may overlap.
+/// The intersection of the polygon with the band `row <= y <= row + 1`, as intervals of x that may
+/// overlap.
 ///
 /// A cell that no edge touches lies inside or outside as a whole, so that the middle line of the
 /// band decides.

@@ -4,6 +4,17 @@ use super::cell::Cell;
 use std::ops::Range;
 
 /// A rectangle of cells.
+///
+/// ```
+/// use formicar::OccupancyGrid;
+/// use formicar::map::{Cell, CellRegion, OCCUPIED};
+///
+/// let mut map = OccupancyGrid::from_rows(&["....", "....", "...."], 1.0)?;
+/// let region = CellRegion::new(Cell::new(1, 0), 2, 2);
+/// map.replace(&region, &[OCCUPIED; 4])?;
+/// assert_eq!(map.lethal_cells().iter().count(), 4);
+/// # Ok::<(), formicar::MapError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CellRegion {
     /// Its lower left cell.

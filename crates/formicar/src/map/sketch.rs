@@ -94,7 +94,7 @@ impl Sketch {
         self.fill(Rect::new(size.x - thickness_m, 0.0, size.x, size.y));
     }
 
-    /// Whether a rectangle lies on the map and every cell that it reaches into holds `value`.
+    /// True if a rectangle lies on the map and every cell that it reaches into holds `value`.
     pub(super) fn is_all(&self, rect: Rect, value: i8) -> bool {
         let size = self.frame.extent_m();
         let on_map = rect.x0 >= 0.0 && rect.y0 >= 0.0 && rect.x1 <= size.x && rect.y1 <= size.y;

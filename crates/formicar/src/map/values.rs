@@ -12,7 +12,7 @@ pub const OCCUPIED: i8 = 100;
 /// Value of an unknown cell.
 pub const UNKNOWN: i8 = -1;
 
-/// Whether a value stops the vehicle.
+/// True if a value stops the vehicle.
 pub(crate) fn lethal(value: i8) -> bool {
     !(0..OCCUPIED).contains(&value)
 }

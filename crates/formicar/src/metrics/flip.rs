@@ -1,4 +1,4 @@
-//! Whether a replan passes an obstacle on another side: decided on the cells of a map.
+//! Replans that pass an obstacle on another side, decided on the cells of a map.
 
 use super::winding::flips;
 use crate::collision::ObstacleMap;
@@ -11,7 +11,7 @@ const METRES_PER_RAD: f64 = 1.0;
 /// Paths are drawn in steps of at most so many cells.
 const SPACING_CELLS: f64 = 0.5;
 
-/// Whether the new path passes some obstacle on another side than what is still ahead of the old
+/// True if the new path passes some obstacle on another side than what is still ahead of the old
 /// one, from the pose nearest to the start of the new one. Both in world coordinates.
 ///
 /// Obstacles are the components of lethal cells, joined across sides and corners. One that reaches

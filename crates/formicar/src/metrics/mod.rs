@@ -1,4 +1,4 @@
-//! What a path is like, in numbers.
+//! Metrics of paths.
 //!
 //! [`PathMetrics`] are exact: computed from segments, not from samples. [`CompatibleMetrics`]
 //! repeat what other tools compute, so that numbers can be laid side by side; they depend on the

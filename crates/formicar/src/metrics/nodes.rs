@@ -3,10 +3,11 @@
 use crate::geometry::Point2;
 use crate::map::Cell;
 use crate::path::{GridPath, WaypointPath};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-/// How many nodes a path has, and at how many of them it changes direction.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+/// The nodes of a path, and those at which it changes direction.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct NodeMetrics {
     /// Nodes, both ends included.
     pub n_nodes: usize,
@@ -18,13 +19,13 @@ impl NodeMetrics {
     /// Directions closer than this are one, radians.
     const STRAIGHT_RAD: f64 = 1e-9;
 
-    /// Of a chain of cells.
+    /// The nodes of a chain of cells.
     pub fn of_grid(path: &GridPath) -> Self {
         let center = |cell: &Cell| Point2::new(cell.col.into(), cell.row.into());
         Self::of_points(&path.cells.iter().map(center).collect::<Vec<_>>())
     }
 
-    /// Of a polyline.
+    /// The nodes of a polyline.
     pub fn of_waypoints(path: &WaypointPath) -> Self {
         Self::of_points(&path.points)
     }

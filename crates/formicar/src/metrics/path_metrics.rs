@@ -5,11 +5,11 @@ use crate::collision::{Body, Drive, ObstacleMap};
 use crate::geometry::{Pose2, angle_difference};
 use crate::path::{CurvePath, CurveSegment, SpeedLimits, SpeedProfile};
 use crate::vehicle::Vehicle;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Distance from the footprint to the nearest occupied cell square or the map border, along a
 /// whole path.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ClearanceSummary {
     /// The least, metres, as the judge found it.
     pub min_m: f64,
@@ -60,7 +60,21 @@ impl ClearanceSummary {
 }
 
 /// Exact metrics of a path.
-#[derive(Clone, Debug, PartialEq, Serialize, schemars::JsonSchema)]
+///
+/// ```
+/// use formicar::metrics::{ClearanceSummary, PathMetrics};
+/// use formicar::path::Direction::{Forward, Reverse};
+/// use formicar::{CurvePath, Pose2, Vehicle};
+///
+/// let mut path = CurvePath::new(Pose2::default());
+/// path.push(0.0, 5.0, Forward);
+/// path.push(0.1, 2.0, Reverse);
+/// let clearance = ClearanceSummary { min_m: 0.4, mean_m: 0.9 };
+/// let metrics = PathMetrics::new(&path, &Vehicle::sedan(), path.end(), clearance);
+/// assert_eq!((metrics.length_m, metrics.reverse_length_m, metrics.n_cusps), (7.0, 2.0, 1));
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[non_exhaustive]
 pub struct PathMetrics {
     /// Driven length, metres.
     pub length_m: f64,
@@ -91,7 +105,7 @@ pub struct PathMetrics {
     /// [`SpeedLimits`] and the steering rate, seconds; where the vehicle says how fast it drives.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub travel_time_s: Option<f64>,
-    /// How hard the path turns from step to step, at [`SteeringShare::DEFAULT_SPACING_M`].
+    /// Turning from step to step, at [`SteeringShare::DEFAULT_SPACING_M`].
     pub steering_share: SteeringShare,
     /// Distance of the last pose from the goal, metres.
     pub goal_error_m: f64,

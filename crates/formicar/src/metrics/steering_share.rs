@@ -1,12 +1,13 @@
-//! How hard a path turns from step to step.
+//! Turning of a path from step to step.
 
 use super::resample::resampled;
 use crate::geometry::angle_difference;
 use crate::path::CurvePath;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Shares of steps by how much the heading changes over them (Li 2024, Table 2).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, schemars::JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[non_exhaustive]
 pub struct SteeringShare {
     /// By at most 5 degrees.
     pub to_5_deg: f64,

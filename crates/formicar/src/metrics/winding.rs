@@ -1,13 +1,23 @@
-//! Whether a new path passes an obstacle on the other side than the old one.
+//! New paths that pass an obstacle on the other side than the old one.
 
 use crate::geometry::Point2;
 
-/// Whether old and new path pass some obstacle on different sides.
+/// True if old and new path pass some obstacle on different sides.
 ///
 /// Obstacles are given by one point inside each component of occupied cells. The loop of the old
 /// path, forth, and the new path, back, winds around a point exactly where the two pass it on
 /// different sides; straight lines join the ends where they differ. After a replan on the way,
 /// give the part of the old path that is still ahead. Cost: path points times obstacles.
+///
+/// ```
+/// use formicar::Point2;
+/// use formicar::metrics::flips;
+///
+/// let path = |y| [[0.0, 0.0], [5.0, y], [9.0, 0.0]].map(|[x, y]| Point2::new(x, y));
+/// let pillar = [Point2::new(5.0, 0.0)];
+/// assert!(flips(&path(2.0), &path(-2.0), &pillar));
+/// assert!(!flips(&path(2.0), &path(1.0), &pillar));
+/// ```
 pub fn flips(old: &[Point2], new: &[Point2], obstacles: &[Point2]) -> bool {
     let there_and_back: Vec<Point2> = old.iter().chain(new.iter().rev()).copied().collect();
     obstacles
@@ -15,8 +25,8 @@ pub fn flips(old: &[Point2], new: &[Point2], obstacles: &[Point2]) -> bool {
         .any(|&obstacle| winding_number(&there_and_back, obstacle) != 0)
 }
 
-/// How often a closed loop runs around a point, counter-clockwise: upward crossings of the ray to
-/// the right less downward ones.
+/// The winding number of a closed loop around a point, counter-clockwise: upward crossings of the
+/// ray to the right less downward ones.
 fn winding_number(corners: &[Point2], point: Point2) -> i32 {
     let n = corners.len();
     let crossing = |i: usize| {

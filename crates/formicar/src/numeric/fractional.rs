@@ -6,6 +6,14 @@ use std::collections::VecDeque;
 /// w(k) = w(k - 1) (1 - (a + 1) / k), that is (-1)^k C(a, k).
 ///
 /// Li 2024 (4-5); Podlubny 1999, section 2.2.
+///
+/// ```
+/// use formicar::numeric::grunwald_letnikov_weights;
+///
+/// // Order 1 is the backward difference; order 1/2 remembers.
+/// assert_eq!(grunwald_letnikov_weights(1.0, 3), [1.0, -1.0, 0.0]);
+/// assert_eq!(grunwald_letnikov_weights(0.5, 3), [1.0, -0.5, -0.125]);
+/// ```
 pub fn grunwald_letnikov_weights(order: f64, n: usize) -> Vec<f64> {
     let mut weights = Vec::with_capacity(n);
     let mut weight = 1.0;

@@ -3,6 +3,14 @@
 use serde::{Deserialize, Serialize};
 
 /// The one source of randomness of a run: same seed, same result.
+///
+/// ```
+/// use formicar::Seed;
+///
+/// let draw = |place| Seed(7).stream(place).unit();
+/// assert_eq!(draw([0, 1]), draw([0, 1]));
+/// assert_ne!(draw([0, 1]), draw([0, 2]));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Seed(pub u64);
 

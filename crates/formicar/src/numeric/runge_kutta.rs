@@ -1,6 +1,14 @@
 //! The classical Runge-Kutta method of fourth order.
 
 /// One step of size `h` for `dy/dt = f(y)`; the local error is of order `h^5`.
+///
+/// ```
+/// use formicar::numeric::rk4_step;
+///
+/// // y' = y from 1, over ten steps to 1.
+/// let [y] = (0..10).fold([1.0], |y, _| rk4_step(y, 0.1, |[y]| [y]));
+/// assert!((y - 1_f64.exp()).abs() < 1e-5);
+/// ```
 pub fn rk4_step<const N: usize>(
     y: [f64; N],
     h: f64,

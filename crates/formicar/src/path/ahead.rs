@@ -1,4 +1,4 @@
-//! What is still ahead on a path.
+//! The part of a path that is still ahead.
 
 use super::CurvePath;
 use crate::geometry::{Pose2, angle_difference};

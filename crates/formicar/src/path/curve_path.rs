@@ -112,8 +112,9 @@ impl CurveSegment {
 
 /// A pose of a sampled path.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct PathPose {
-    /// Where the vehicle is.
+    /// The pose of the vehicle.
     pub pose: Pose2,
     /// Arc length driven so far, metres.
     pub s_m: f64,
@@ -124,6 +125,17 @@ pub struct PathPose {
 }
 
 /// A chain of segments from a start pose.
+///
+/// ```
+/// use formicar::path::Direction::{Forward, Reverse};
+/// use formicar::{CurvePath, Pose2};
+///
+/// let mut path = CurvePath::new(Pose2::new(0.0, 0.0, 0.0));
+/// path.push(0.0, 5.0, Forward);
+/// path.push(-0.2, 2.0, Reverse);
+/// assert_eq!((path.segments().len(), path.length_m()), (2, 7.0));
+/// assert!(path.sample(0.5).windows(2).all(|w| w[1].s_m - w[0].s_m <= 0.5));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CurvePath {
     start: Pose2,
@@ -218,8 +230,8 @@ impl CurvePath {
     }
 
     /// The same path with its clothoids cut into arcs: each starts where the clothoid is, turns as
-    /// it does, and ends at most `gap_m` away from it, unless that takes more than 2000 arcs. Lines and
-    /// arcs stay as they are.
+    /// it does, and ends at most `gap_m` away from it, unless that takes more than 2000 arcs. Lines
+    /// and arcs stay as they are.
     #[must_use]
     pub fn with_arcs(&self, gap_m: f64) -> Self {
         let segments = self.segments.iter().flat_map(|s| arcs_of(s, gap_m));

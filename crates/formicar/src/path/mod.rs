@@ -18,6 +18,14 @@ pub struct GridPath {
 }
 
 /// A polyline, from start to goal.
+///
+/// ```
+/// use formicar::Point2;
+/// use formicar::path::WaypointPath;
+///
+/// let points = [[0.0, 0.0], [3.0, 4.0], [3.0, 6.0]].map(|[x, y]| Point2::new(x, y));
+/// assert_eq!(WaypointPath { points: points.to_vec() }.length_m(), 7.0);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WaypointPath {
     /// The corners in order, metres.

@@ -1,4 +1,4 @@
-//! How fast a vehicle may drive along a path, and how long that takes.
+//! Speed along a path, and the time that it takes.
 //!
 //! Over each step between two samples the square of the speed is bounded by the top speed, by
 //! lateral acceleration (`v^2 |k|`), and by the steering rate: the wheels turn at
@@ -12,7 +12,7 @@ use crate::parameters::parameters;
 use crate::vehicle::Vehicle;
 
 parameters! {
-    /// What bounds the speed.
+    /// Limits of speed and acceleration.
     pub struct SpeedLimits {
         /// Top speed in both gears, meters per second.
         #[range(0.001..=100.0)]
@@ -43,6 +43,7 @@ impl SpeedLimits {
 
 /// Speed and time at one pose of a sampled path.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct TimedPose {
     /// Speed when the pose is reached, metres per second, at least 0.
     pub speed_mps: f64,
@@ -51,7 +52,20 @@ pub struct TimedPose {
 }
 
 /// Speeds and times along a path.
+///
+/// ```
+/// use formicar::path::{Direction, SpeedLimits, SpeedProfile};
+/// use formicar::{CurvePath, Pose2, Vehicle};
+///
+/// let mut path = CurvePath::new(Pose2::default());
+/// path.push(0.0, 100.0, Direction::Forward);
+/// let limits = SpeedLimits { max_speed_mps: 10.0, ..SpeedLimits::default() };
+/// let profile = SpeedProfile::new(&path, &Vehicle::sedan(), &limits, 0.5);
+/// assert!(profile.travel_time_s > 10.0);
+/// assert!(profile.poses.iter().all(|pose| pose.speed_mps <= 10.0));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SpeedProfile {
     /// One for each pose of [`CurvePath::sample`] at the same spacing.
     pub poses: Vec<TimedPose>,
@@ -64,7 +78,7 @@ struct Step {
     length_m: f64,
     /// Bound of the speed on it.
     cap_mps: f64,
-    /// Whether the vehicle stands before it, and for how long.
+    /// The time that the vehicle stands before it, if it does.
     stands_s: Option<f64>,
 }
 
@@ -123,7 +137,7 @@ impl Wheels {
         rate * (1.0 + steer * steer) / (self.wheelbase_m * rate_per_m2.abs())
     }
 
-    /// How long the wheels of a standing vehicle turn from one curvature to another.
+    /// The time in which the wheels of a standing vehicle turn from one curvature to another.
     fn turning_s(&self, from: f64, to: f64) -> f64 {
         let steer = |curvature: f64| (self.wheelbase_m * curvature).atan();
         let turn = (steer(to) - steer(from)).abs();
@@ -155,8 +169,8 @@ fn steps(path: &CurvePath, limits: &SpeedLimits, wheels: &Wheels, spacing_m: f64
     steps
 }
 
-/// How long the vehicle stands before a segment; none where it drives on. The wheels are straight
-/// at first or turned already: what they did before the path is not known.
+/// The time that the vehicle stands before a segment; none where it drives on. The wheels are
+/// straight at first or turned already: what they did before the path is not known.
 fn standing_s(before: Option<&CurveSegment>, next: &CurveSegment, wheels: &Wheels) -> Option<f64> {
     const SAME_CURVATURE_PER_M: f64 = 1e-9;
     let Some(before) = before else {

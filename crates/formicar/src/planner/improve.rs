@@ -70,7 +70,7 @@ impl Planner {
             obstacles: &self.obstacles,
             body: problem.map().body(),
             radius_m: problem.map().radius_m(),
-            motion: problem.motion(),
+            gears: problem.gears(),
             cost: &self.config.cost,
             soft: soft.is_some().then_some(&price),
         };

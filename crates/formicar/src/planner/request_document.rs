@@ -3,9 +3,8 @@
 use super::via_record::ViaRecord;
 use crate::geometry::Pose2;
 use crate::scenario::ScenarioError;
-use crate::scenario::{
-    CurvatureMode, GoalHeading, GoalTolerance, MotionMode, Request, StartHeading,
-};
+use crate::scenario::{CurvatureMode, GoalHeading, GoalTolerance, Request, StartHeading};
+use crate::vehicle::Gears;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
@@ -31,7 +30,7 @@ pub struct RequestDocument {
     /// How far from the goal a path may end.
     pub goal_tolerance: Option<GoalTolerance>,
     /// Which gears may be used.
-    pub motion: Option<MotionMode>,
+    pub motion: Option<Gears>,
     /// Whether the curvature may jump: `"arcs"`, or `{"continuous": {"max_rate_per_m2": 0.5}}`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub curvature: Option<CurvatureMode>,
@@ -84,7 +83,7 @@ impl RequestDocument {
                 .goal_tolerance
                 .or(defaults.goal_tolerance)
                 .unwrap_or_default(),
-            motion: self.motion.or(defaults.motion).unwrap_or_default(),
+            gears: self.motion.or(defaults.motion).unwrap_or_default(),
             curvature: self.curvature.or(defaults.curvature).unwrap_or_default(),
             deadline: deadline_ms.map(deadline).transpose()?,
             budget_steps: self.budget_steps.or(defaults.budget_steps),
@@ -138,7 +137,7 @@ impl From<&Request> for RequestDocument {
             goals,
             via: (!via.is_empty()).then_some(via),
             goal_tolerance: Some(request.goal_tolerance),
-            motion: Some(request.motion),
+            motion: Some(request.gears),
             // Left out where nothing was asked for, so that such answers stay what they were.
             curvature: Some(request.curvature).filter(|&c| c != CurvatureMode::Arcs),
             start_heading: Some(request.start_heading),
@@ -159,7 +158,7 @@ mod tests {
     #[test]
     fn a_request_survives_the_wire() {
         let mut request = Request::new(Pose2::new(1.0, 2.0, 0.1), Pose2::new(3.0, 4.0, -0.1));
-        request.motion = MotionMode::Forward;
+        request.gears = Gears::Forward;
         request.curvature = CurvatureMode::Continuous(CurvatureRate {
             max_rate_per_m2: Some(0.5),
         });

@@ -1,15 +1,15 @@
-//! What searches tell that drive.
+//! Progress of the searches that drive.
 
 use crate::geometry::{Arc, Point2, Pose2};
 
 /// The way of an ant that drives; grid coordinates.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DriveWay {
-    /// Where it began.
+    /// The start pose.
     pub start: Pose2,
-    /// What it drove; to the goal pose where it arrived.
+    /// The arcs that it drove, up to the goal pose where it arrived.
     pub arcs: Vec<Arc>,
-    /// Where it died, if it did; it may have retreated since.
+    /// The place where it died, if it did; it may have retreated since.
     pub died_at: Option<Point2>,
     /// Decisions that it took.
     pub n_steps: u64,
@@ -26,11 +26,11 @@ pub struct DriveView<'a> {
     pub ways: &'a [DriveWay],
 }
 
-/// Motions of hybrid A* to states that it has reached since it told of them last.
+/// Motions of hybrid A* to the states reached since the last such event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReachedView<'a> {
     /// Search steps so far.
     pub n_steps: u64,
-    /// Each from the pose where it begins; grid coordinates.
+    /// The motions, each with the pose where it begins; grid coordinates.
     pub motions: &'a [(Pose2, Arc)],
 }

@@ -4,7 +4,7 @@ use super::{AntWays, ColonyView, Event, IterationRecord, Observer};
 use crate::map::Cell;
 use crate::path::GridPath;
 
-/// How often ants of an iteration went between two cells, in either direction.
+/// The number of passages of ants between two cells in one iteration, in either direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Traffic {
     /// The two cells, the one that comes first row by row before the other.
@@ -13,14 +13,14 @@ pub struct Traffic {
     pub n_passed: u32,
 }
 
-/// What is kept of an iteration.
+/// The kept part of an iteration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AntFrame {
-    /// What it came to.
+    /// Its numbers.
     pub record: IterationRecord,
-    /// Where the ants went that reached the goal, by cells.
+    /// The passages of the ants that reached the goal.
     pub arrived: Vec<Traffic>,
-    /// Where the others went.
+    /// The passages of the others.
     pub lost: Vec<Traffic>,
     /// The way of least cost; none if no ant arrived.
     pub best: Option<GridPath>,
@@ -55,12 +55,12 @@ impl AntFrames {
         }
     }
 
-    /// What was kept, in the order of the iterations.
+    /// The kept iterations, in order.
     pub fn frames(&self) -> &[AntFrame] {
         &self.frames
     }
 
-    /// Looks at an iteration; what a run before it has left is forgotten.
+    /// Adds an iteration; the first of a run discards those of the run before.
     pub fn keep(&mut self, view: &ColonyView) {
         if view.record.iteration == 0 {
             self.frames.clear();
@@ -83,7 +83,7 @@ impl AntFrames {
         }
     }
 
-    /// Whether a frame stays when others follow.
+    /// True if a frame stays when others follow.
     fn is_kept(&self, frame: &AntFrame) -> bool {
         let number = frame.record.iteration.saturating_add(1);
         let power = 10_u32.pow(number.ilog10());
@@ -101,7 +101,7 @@ impl Observer for AntFrames {
 }
 
 impl AntFrame {
-    /// What is seen of an iteration on a grid of so many columns and rows.
+    /// The frame of an iteration on a grid of `n_cols` columns and `n_rows` rows.
     pub fn of(view: &ColonyView, (n_cols, n_rows): (usize, usize)) -> Self {
         let ants = |arrived: bool| {
             let ants = 0..view.ways.n_ants();

@@ -1,4 +1,4 @@
-//! What a colony tells of an iteration.
+//! The record of a colony's iteration.
 
 use super::pheromone::pheromone_by_cell;
 use crate::map::Cell;
@@ -6,10 +6,10 @@ use crate::path::GridPath;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What one iteration of a colony came to, or one generation of a population.
+/// The numbers of one iteration of a colony, or of one generation of a population.
 ///
 /// Costs are those of the colony's objective; lengths are in cells, as the objective counts them.
-/// Of a population, ants are individuals and those that arrived the ones that are free of
+/// In a population, ants are individuals, and those that arrived are the ones free of
 /// collisions; costs are theirs without a penalty, and there is neither evaporation nor pheromone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -43,18 +43,18 @@ pub struct IterationRecord {
 /// The ways of the ants of an iteration, in the ants' order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AntWays<'a> {
-    /// Where all set out.
+    /// The start of all ants.
     pub start: Cell,
-    /// Where they go.
+    /// Their goal.
     pub goal: Cell,
     /// The steps that an ant can take, columns and rows: [`STEPS`](crate::map::STEPS), or chords.
     pub moves: &'a [(i32, i32)],
     /// Steps of all ants, one ant after the other, as places in `moves`; any other leads to the
     /// goal.
     pub steps: &'a [u8],
-    /// Where in `steps` each ant ends.
+    /// The end of each ant's steps in `steps`.
     pub ends: &'a [usize],
-    /// Whether each ant reached the goal.
+    /// One flag per ant, true if it reached the goal.
     pub arrived: &'a [bool],
     /// The ant whose way costs least; none if none arrived.
     pub best: Option<usize>,
@@ -97,12 +97,13 @@ pub fn path_of(moves: &[(i32, i32)], [start, goal]: [Cell; 2], steps: &[u8]) -> 
 
 /// Pheromone at the end of an iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Pheromone<'a> {
     /// By cell, row by row; not a number where no ant can go.
     Cells(&'a [f32]),
     /// By cell and step, eight to a cell; not a number where no ant can go.
     Steps(&'a [f32]),
-    /// Of some cells, by place row by row; no ant can go to others.
+    /// By index for some cells, row by row; no ant can go to others.
     Listed(&'a [u32], &'a [f32]),
 }
 
@@ -127,11 +128,11 @@ impl Pheromone<'_> {
 /// A colony at the end of an iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ColonyView<'a> {
-    /// What it came to.
+    /// Its numbers.
     pub record: &'a IterationRecord,
-    /// Where its ants went.
+    /// The paths of its ants.
     pub ways: AntWays<'a>,
-    /// What lies on the ground.
+    /// The pheromone on the map.
     pub pheromone: Pheromone<'a>,
 }
 

@@ -1,4 +1,4 @@
-//! What an evolution tells of a generation.
+//! The record of a population's generation.
 
 use super::IterationRecord;
 use crate::map::Cell;
@@ -6,11 +6,11 @@ use crate::map::Cell;
 /// A population at the end of a generation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PopulationView<'a> {
-    /// What it came to.
+    /// Its numbers.
     pub record: &'a IterationRecord,
     /// Its polylines, each from start to goal.
     pub lines: &'a [Vec<Cell>],
-    /// Whether each is free of collisions.
+    /// One flag each, true if it is free of collisions.
     pub is_free: &'a [bool],
     /// Cost and penalty of each.
     pub fitness: &'a [f64],

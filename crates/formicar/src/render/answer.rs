@@ -1,6 +1,6 @@
 //! The picture of an answer: what a plan's picture needs is read off the document.
 
-use super::style::clearance_label;
+use super::plan::key_numbers;
 use super::{Layout, Picture, PlanPicture, ProfilePoint, plan_picture_in};
 use crate::geometry::{Point2, Pose2};
 use crate::map::OccupancyGrid;
@@ -8,18 +8,18 @@ use crate::planner::{Answer, Outcome, PoseRecord, RequestDocument};
 use crate::scenario::Request;
 use crate::vehicle::Vehicle;
 
-/// All that the picture of an answer is made from.
+/// The parts of the picture of an answer.
 #[derive(Clone, Copy, Debug)]
 pub struct AnswerPicture<'a> {
-    /// The ground.
+    /// The map.
     pub map: &'a OccupancyGrid,
     /// The vehicle.
     pub vehicle: &'a Vehicle,
-    /// What came of the request.
+    /// The answer to the request.
     pub answer: &'a Answer,
-    /// The same before it was written down.
+    /// The outcome that the answer describes.
     pub outcome: &'a Outcome,
-    /// The place of an obstacle that the body comes nearest to, world coordinates
+    /// The point of an obstacle that the body comes nearest to, world coordinates
     /// ([`ObstacleMap::contact`](crate::collision::ObstacleMap::contact)).
     pub contact: Option<Point2>,
 }
@@ -79,7 +79,7 @@ fn request(answer: &Answer) -> Option<Request> {
     request.onto(&RequestDocument::default()).ok()
 }
 
-/// Which goal was reached.
+/// The index of the goal that was reached.
 fn reached(answer: &Answer) -> usize {
     let certificate = answer.certificate.as_ref();
     certificate.and_then(|c| c.goal_index).unwrap_or_default()
@@ -115,19 +115,6 @@ fn caption(answer: &Answer, vehicle: &Vehicle) -> String {
     let (Some(metrics), None) = (&answer.metrics, &answer.reason) else {
         return answer.reason.clone().unwrap_or_default();
     };
-    let mut parts = vec![
-        format!("{:.2} m", metrics.length_m),
-        format!("clearance {}", clearance_label(metrics.min_clearance_m)),
-    ];
-    let limit_per_m = vehicle.max_curvature_per_m();
-    if limit_per_m.is_finite() {
-        let largest_per_m = metrics.max_curvature_per_m;
-        parts.push(format!(
-            "curvature {largest_per_m:.2} of {limit_per_m:.2} 1/m"
-        ));
-        let plural = if metrics.n_cusps == 1 { "" } else { "s" };
-        parts.push(format!("{} cusp{plural}", metrics.n_cusps));
-    }
     let by = format!("{} by {}", answer.provenance.vehicle.name, answer.planner);
-    format!("{by}: {}", parts.join(", "))
+    format!("{by}: {}", key_numbers(metrics, vehicle))
 }

@@ -1,4 +1,4 @@
-//! What ants leave on a map: their traffic, and the nodes of the path that comes of it.
+//! The traces of ants on a map: their traffic, and the nodes of the path found.
 
 use super::Scene;
 use super::legend::{Dot, Swatch};
@@ -22,7 +22,7 @@ const WIDTH_PX: (f64, f64) = (0.9, 3.0);
 const MIN_NODE_CELL_PX: f64 = 6.0;
 
 impl Scene {
-    /// Where ants went: the more of them, the darker and wider, evenly over ratios up to
+    /// The passages of ants: the more of them, the darker and wider, evenly over ratios up to
     /// `n_most`.
     pub fn traffic(&mut self, traffic: &[Traffic], n_most: u32, style: (&str, Color)) -> &mut Self {
         let (label, color) = style;

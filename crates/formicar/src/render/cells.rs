@@ -45,7 +45,7 @@ impl CellLayer {
         }
     }
 
-    /// Which levels occur, by level.
+    /// The levels that occur, one flag each.
     pub(super) fn levels_in_use(&self) -> [bool; 256] {
         let mut used = [false; 256];
         self.levels

@@ -26,11 +26,11 @@ pub struct ColonyPicture<'a> {
     pub map: &'a OccupancyGrid,
     /// The vehicle.
     pub vehicle: &'a Vehicle,
-    /// Where it stands.
+    /// The start pose.
     pub start: Pose2,
-    /// Where it should go.
+    /// The goal pose.
     pub goal: Pose2,
-    /// What was computed on the way: layers, the run of the colony, nodes.
+    /// The stages before the path: layers, the run of the colony, nodes.
     pub stages: &'a Stages,
     /// Iterations that were kept, in their order; the ways of the last are on the map.
     pub frames: &'a [AntFrame],
@@ -143,7 +143,7 @@ impl ColonyPicture<'_> {
         (scene, heading)
     }
 
-    /// What came of the ants: nodes, straight ways between those that stay, and the path.
+    /// The result of the ants: nodes, straight lines between those that stay, and the path.
     fn draw_result(&self, scene: &mut Scene) {
         let nodes = &self.stages.nodes;
         if !nodes.is_empty() {
@@ -187,7 +187,7 @@ fn line(label: &str, color: Color, dash: Dash) -> LineStyle {
     }
 }
 
-/// What an iteration came to, in words.
+/// The numbers of an iteration, in words.
 fn numbers(frame: &AntFrame) -> String {
     let record = &frame.record;
     let arrived = format!("{} of {} arrived", record.n_arrived, record.n_ants);
@@ -197,7 +197,7 @@ fn numbers(frame: &AntFrame) -> String {
     }
 }
 
-/// Which of some frames to show side by side: the first, the last, and between them those nearest
+/// The frames to show side by side: the first, the last, and between them those nearest
 /// to equal ratios of iterations, for a colony changes most in its first.
 fn spread(n_frames: usize, iteration: impl Fn(usize) -> u32) -> Vec<usize> {
     let number = |i: usize| f64::from(iteration(i)) + 1.0;

@@ -26,7 +26,7 @@ pub struct DrivePicture<'a> {
     pub vehicle: &'a Vehicle,
     /// The path that was to be driven.
     pub planned: &'a CurvePath,
-    /// What came of it.
+    /// The result.
     pub drive: &'a Tracking,
     /// The obstacle that the vehicle came nearest to or touched first, and its clearance in metres.
     pub tightest: Option<(Point2, f64)>,
@@ -137,7 +137,7 @@ fn wheels(trace: &[TracePoint]) -> Vec<Series> {
     ]
 }
 
-/// What the inner wheel reaches where the vehicle turns as tight as it can.
+/// The angle of the inner wheel where the vehicle turns as tight as it can.
 fn wheel_limits(vehicle: &Vehicle) -> Vec<Limit> {
     let axles = AckermannAxles::of(vehicle);
     let steer_rad = vehicle.steer_rad(vehicle.max_curvature_per_m());

@@ -1,4 +1,4 @@
-//! Which part of a map a picture shows: all of it, or the surroundings of a short way.
+//! The part of a map that a picture shows: all of it, or the surroundings of a short path.
 
 use super::view::frame_bounds;
 use super::{Layout, PlanPicture};

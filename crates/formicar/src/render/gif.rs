@@ -6,9 +6,9 @@ use super::{Picture, palette};
 use ::gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 use std::borrow::Cow;
 
-/// How long a picture stays, in hundredths of a second.
+/// The time that a picture stays, in hundredths of a second.
 const DELAY_CS: u16 = 12;
-/// How long the last one stays.
+/// The time that the last one stays.
 const LAST_DELAY_CS: u16 = 150;
 /// The place in the palette that means: as before.
 const UNCHANGED: u8 = MAX_COLORS as u8;

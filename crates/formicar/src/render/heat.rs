@@ -2,7 +2,7 @@
 
 use super::legend::Swatch;
 
-/// How values become colors.
+/// The mapping of values to colors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum HeatScale {
     /// Equal differences look equal.
@@ -33,7 +33,7 @@ impl Heat {
         (least <= high).then_some(Self { scale, low, high })
     }
 
-    /// Where a value lies between the ends, 0 to 1; 0 where they are equal, none beyond them.
+    /// The position of a value between the ends, 0 to 1; 0 where they are equal, none beyond them.
     pub(super) fn share(&self, value: f64) -> Option<f64> {
         let share = match self.scale {
             HeatScale::Linear => (value - self.low) / (self.high - self.low),

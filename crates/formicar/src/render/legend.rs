@@ -14,7 +14,7 @@ const SWATCH_PX: f64 = 26.0;
 const GAP_PX: f64 = 20.0;
 const HEAT_PX: f64 = 110.0;
 
-/// How a mark looks in the legend.
+/// The look of a mark in the legend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Swatch {
     Cell(Color),

@@ -8,7 +8,7 @@ use crate::geometry::Point2;
 /// Gap between letters, in hundredths of the size.
 const GAP: f64 = 17.0;
 
-/// Where a text stands relative to its point on the base line.
+/// The anchor of a text, relative to its point on the base line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Anchor {
     Start,
@@ -16,7 +16,7 @@ pub(super) enum Anchor {
     End,
 }
 
-/// How a text is written.
+/// The style of a text.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lettering {
     pub(super) size_px: f64,

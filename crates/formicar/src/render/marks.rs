@@ -1,4 +1,4 @@
-//! What moves on a map: drivable paths, swept ground, poses, and the tightest place.
+//! Marks of motion on a map: drivable paths, swept ground, poses, and the tightest place.
 
 use super::Scene;
 use super::legend::{Dot, Swatch};

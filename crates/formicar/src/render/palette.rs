@@ -3,6 +3,14 @@
 use std::fmt;
 
 /// A color in sRGB.
+///
+/// ```
+/// use formicar::render::Color;
+///
+/// let (black, white) = (Color::rgb(0, 0, 0), Color::rgb(255, 255, 255));
+/// assert_eq!((black.lightness(), white.lightness()), (0.0, 1.0));
+/// assert_eq!(black.mix(white, 1.0), white);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Color {
     /// Red, 0 to 255.
@@ -32,7 +40,7 @@ impl Color {
         }
     }
 
-    /// How light it looks in greyscale, 0 (black) to 1 (white): luma of Rec. 709.
+    /// Its lightness in greyscale, 0 (black) to 1 (white): luma of Rec. 709.
     pub fn lightness(self) -> f64 {
         let [r, g, b] = [self.red, self.green, self.blue].map(f64::from);
         (0.2126 * r + 0.7152 * g + 0.0722 * b) / 255.0

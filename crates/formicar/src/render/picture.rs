@@ -34,7 +34,7 @@ pub struct Picture {
     pub charts: Vec<Chart>,
     /// Small scenes and their headings, in rows below everything; their legend is that of the map.
     pub panels: Vec<(Scene, String)>,
-    /// How its parts are put together; scenes bring their own size.
+    /// The arrangement of its parts; scenes bring their own size.
     pub layout: Layout,
 }
 

@@ -6,8 +6,10 @@ use super::{CellStyle, Layout, Picture, PoseMark, ProfilePoint, Scene};
 use super::{focus, palette, strip_charts};
 use crate::geometry::{Point2, Pose2};
 use crate::map::{BitGrid, Cell, OccupancyGrid};
+use crate::metrics::PathMetrics;
 use crate::path::CurvePath;
-use crate::planner::Explanation;
+use crate::planner::{Explanation, NotFound, Plan};
+use crate::scenario::Request;
 use crate::vehicle::{Motion, Vehicle};
 
 /// A detail enlarges the map at least so many times.
@@ -15,16 +17,19 @@ const ENLARGEMENT: f64 = 1.8;
 /// Half the side of a detail, at least, to recognize the place by.
 const MIN_HALF_SIDE_CELLS: f64 = 2.0;
 
-/// All that the picture of a plan, or of a failure, is made from.
+/// The parts of the picture of a plan, or of a failure.
+///
+/// [`Plan::picture`] and [`NotFound::picture`] fill them in; for other pictures, end a literal with
+/// `..PlanPicture::new(map, vehicle, start, goal)`.
 #[derive(Clone, Copy, Debug)]
 pub struct PlanPicture<'a> {
-    /// The ground.
+    /// The map.
     pub map: &'a OccupancyGrid,
     /// The vehicle, with its limits and footprint.
     pub vehicle: &'a Vehicle,
-    /// Where it stands.
+    /// The start pose.
     pub start: Pose2,
-    /// Where it should go.
+    /// The goal pose.
     pub goal: Pose2,
     /// Other places by name: goals that were not chosen, via points.
     pub places: &'a [(Point2, String)],
@@ -32,23 +37,99 @@ pub struct PlanPicture<'a> {
     pub path: Option<&'a CurvePath>,
     /// Values along the path; empty for no charts.
     pub profile: &'a [ProfilePoint],
-    /// Why there is no path: its gap is ringed, its colliding cells are drawn.
+    /// The reason why there is no path: its gap is ringed, its colliding cells are drawn.
     pub failure: Option<&'a Explanation>,
     /// The tightest place and its clearance in metres.
     pub tightest: Option<(Point2, f64)>,
-    /// Heading.
+    /// The heading.
     pub title: &'a str,
     /// Key numbers, or the reason why there is no path.
     pub caption: &'a str,
 }
 
-/// The picture of a plan, or of a request without one, for a page.
+impl<'a> PlanPicture<'a> {
+    /// A vehicle at its start and its goal on a map, and nothing else.
+    pub fn new(map: &'a OccupancyGrid, vehicle: &'a Vehicle, start: Pose2, goal: Pose2) -> Self {
+        Self {
+            map,
+            vehicle,
+            start,
+            goal,
+            places: &[],
+            path: None,
+            profile: &[],
+            failure: None,
+            tightest: None,
+            title: "",
+            caption: "",
+        }
+    }
+}
+
+impl Plan {
+    /// The picture of the path on its map, with the tightest place and the key numbers. Title and
+    /// caption are fields of the result.
+    ///
+    /// ```
+    /// use formicar::{OccupancyGrid, PlannerConfig, Pose2, Scenario, Seed, Vehicle};
+    ///
+    /// let map = OccupancyGrid::from_rows(&["..............."; 10], 1.0)?;
+    /// let [start, goal] = [3.0, 11.0].map(|x| Pose2::new(x, 5.0, 0.0));
+    /// let scenario = Scenario::new(&map, Vehicle::warehouse_amr(), start, goal)?;
+    /// let plan = formicar::plan(&scenario, &PlannerConfig::default(), Seed(1), &mut ())?.found()?;
+    /// let svg = plan.picture(&map, scenario.vehicle()).to_svg();
+    /// assert!(svg.contains("8.00 m, clearance"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn picture(&self, map: &OccupancyGrid, vehicle: &Vehicle) -> Picture {
+        let tightest = self.certificate.tightest.position();
+        plan_picture(&PlanPicture {
+            path: Some(&self.path),
+            tightest: Some((tightest, self.certificate.min_clearance_m)),
+            caption: &key_numbers(&self.metrics, vehicle),
+            ..PlanPicture::new(map, vehicle, self.path.start(), self.path.end())
+        })
+    }
+}
+
+impl NotFound {
+    /// The picture of a request without a path: both ends, the obstacle in the way, and the reason.
+    pub fn picture(&self, map: &OccupancyGrid, vehicle: &Vehicle, request: &Request) -> Picture {
+        plan_picture(&PlanPicture {
+            path: self.refused.as_ref().map(|(path, _)| path),
+            failure: Some(&self.explanation),
+            title: self.status.name(),
+            caption: &self.reason,
+            ..PlanPicture::new(map, vehicle, request.start, request.goal)
+        })
+    }
+}
+
+/// Length, clearance, largest curvature and number of cusps, in words.
+pub(super) fn key_numbers(metrics: &PathMetrics, vehicle: &Vehicle) -> String {
+    let mut parts = vec![
+        format!("{:.2} m", metrics.length_m),
+        format!("clearance {}", clearance_label(metrics.min_clearance_m)),
+    ];
+    let limit_per_m = vehicle.max_curvature_per_m();
+    if limit_per_m.is_finite() {
+        let largest_per_m = metrics.max_curvature_per_m;
+        parts.push(format!(
+            "curvature {largest_per_m:.2} of {limit_per_m:.2} 1/m"
+        ));
+        let plural = if metrics.n_cusps == 1 { "" } else { "s" };
+        parts.push(format!("{} cusp{plural}", metrics.n_cusps));
+    }
+    parts.join(", ")
+}
+
+/// Draws a plan, or a request without one, as a page.
 pub fn plan_picture(plan: &PlanPicture) -> Picture {
     plan_picture_in(plan, Layout::Page)
 }
 
-/// The picture of a plan, or of a request without one. Where the way is short beside the map, its
-/// surroundings alone are shown.
+/// Draws a plan, or a request without one, in a layout. Where the path is short beside the map,
+/// only its surroundings are shown.
 pub fn plan_picture_in(plan: &PlanPicture, layout: Layout) -> Picture {
     let scene = drawn(
         Scene::part(plan.map, focus::bounds(plan, layout), layout),

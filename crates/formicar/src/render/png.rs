@@ -7,7 +7,7 @@ use thiserror::Error;
 /// Most pixels of a picture: 2^28, a gigabyte of memory.
 const MAX_PIXELS: f64 = 268_435_456.0;
 
-/// Why a picture could not become pixels.
+/// The reason why a picture could not become pixels.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum RenderError {
@@ -26,11 +26,11 @@ pub enum RenderError {
     #[cfg(feature = "gif-pictures")]
     #[error("a film of {n_pictures} pictures, {width_px} px wide, does not fit a GIF: {reason}")]
     Film {
-        /// How many pictures.
+        /// The number of pictures.
         n_pictures: usize,
         /// The width asked for.
         width_px: u32,
-        /// Why.
+        /// The reason.
         reason: String,
     },
 }

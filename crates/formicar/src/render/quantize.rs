@@ -12,7 +12,7 @@ pub(super) fn bin(color: [u8; 3]) -> u16 {
     bits[0] << (2 * BITS) | bits[1] << BITS | bits[2]
 }
 
-/// How often colors occur, in bins of like colors.
+/// Counts of colors, in bins of like colors.
 pub(super) struct Census {
     counts: Vec<u64>,
     sums: Vec<[u64; 3]>,

@@ -37,6 +37,18 @@ const LOG_HEAT_DECADES: f64 = 3.0;
 /// marks.
 ///
 /// World coordinates throughout; north is up, and a map with yaw stands askew.
+///
+/// ```
+/// use formicar::render::{Picture, PoseMark, Scene};
+/// use formicar::{OccupancyGrid, Pose2, Vehicle};
+///
+/// let map = OccupancyGrid::from_rows(&["..........", ".....#....", ".........."], 1.0)?;
+/// let mut scene = Scene::new(&map);
+/// scene.pose(Pose2::new(2.0, 1.5, 0.0), &Vehicle::warehouse_amr(), PoseMark::Start);
+/// let picture = Picture { scene: Some(scene), title: "a hall".to_owned(), ..Picture::default() };
+/// assert!(picture.to_svg().starts_with("<svg"));
+/// # Ok::<(), formicar::MapError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub(super) frame: GridFrame,
@@ -67,7 +79,7 @@ impl Scene {
         }
     }
 
-    /// What lies between a lowest and a highest world coordinate.
+    /// The part between a lowest and a highest world coordinate.
     pub(super) fn part(map: &OccupancyGrid, bounds: (Point2, Point2), layout: Layout) -> Self {
         let (low, high) = bounds;
         let extent = high - low;
@@ -99,7 +111,7 @@ impl Scene {
         }
     }
 
-    /// Whether charts stand below it, for it leaves no room beside.
+    /// True if charts stand below it, since it leaves no room beside.
     pub(super) fn is_wide(&self) -> bool {
         self.panel_px().x >= WIDE_PANEL_PX
     }

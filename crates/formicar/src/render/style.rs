@@ -1,8 +1,8 @@
-//! How layers look, as values.
+//! The looks of layers, as values.
 
 use super::palette::{self, Color};
 
-/// How much room a picture has.
+/// The room that a picture has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Layout {
     /// A page or a screen: up to about 1200 px wide, charts beside or below the map.
@@ -12,7 +12,7 @@ pub enum Layout {
     Phone,
 }
 
-/// How a line is broken.
+/// The dashes of a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Dash {
     /// Not at all.
@@ -47,7 +47,7 @@ pub struct LineStyle {
     pub color: Color,
     /// Its width in pixels of a picture about 1200 wide.
     pub width_px: f64,
-    /// How it is broken.
+    /// Its dashes.
     pub dash: Dash,
 }
 
@@ -78,12 +78,12 @@ impl CellStyle {
     }
 }
 
-/// Which end of a path a pose is.
+/// The end of a path that a pose marks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PoseMark {
-    /// Where the vehicle stands.
+    /// The start pose.
     Start,
-    /// Where it should go.
+    /// The goal pose.
     Goal,
 }
 

@@ -58,7 +58,7 @@ impl View {
         Point2::new(unit.x, -unit.y)
     }
 
-    /// Whether a point on the page lies in the panel.
+    /// True if a point on the page lies in the panel.
     pub(super) fn shows(&self, px: Point2) -> bool {
         (0.0..=self.size_px.x).contains(&px.x) && (0.0..=self.size_px.y).contains(&px.y)
     }

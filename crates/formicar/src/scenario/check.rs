@@ -8,6 +8,16 @@ use crate::vehicle::Vehicle;
 use std::sync::Arc;
 
 /// A checked planning problem.
+///
+/// ```
+/// use formicar::{OccupancyGrid, Pose2, Scenario, ScenarioError, Vehicle};
+///
+/// let map = OccupancyGrid::from_rows(&["#.........", "..........", ".........."], 1.0)?;
+/// let goal = Pose2::new(8.0, 1.5, 0.0);
+/// let refused = Scenario::new(&map, Vehicle::warehouse_amr(), Pose2::new(0.5, 2.5, 0.0), goal);
+/// assert!(matches!(refused, Err(ScenarioError::Occupied { .. })));
+/// # Ok::<(), formicar::MapError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Scenario {
     obstacles: Arc<ObstacleMap>,
@@ -71,7 +81,7 @@ impl Scenario {
 const MAX_PLACES: usize = 100;
 
 impl Request {
-    /// Whether this request can be asked on this map with this vehicle.
+    /// Checks the request against a map and a vehicle.
     ///
     /// Of several goals one has to be free; the others may be taken.
     ///
@@ -156,7 +166,7 @@ fn check_tolerance(what: &'static str, tolerance: GoalTolerance) -> Result<(), S
     Ok(())
 }
 
-/// Whether the body stands free at one of the poses, which share a position.
+/// True if the body stands free at one of the poses, which share a position.
 fn check_end(
     obstacles: &ObstacleMap,
     body: &Body,

@@ -1,4 +1,4 @@
-//! Whether the curvature of a path may jump, and how fast it may change.
+//! Continuity of the curvature, and the limit of its rate of change.
 
 use super::{Request, ScenarioError};
 use crate::vehicle::{Motion, Vehicle};
@@ -9,9 +9,22 @@ use serde::{Deserialize, Serialize};
 /// lose their digits.
 const RATES_PER_M2: [f64; 2] = [1e-4, 1e4];
 
-/// Whether the curvature of a path may jump.
+/// The continuity that a path's curvature must have.
+///
+/// ```
+/// use formicar::scenario::{CurvatureMode, CurvatureRate};
+/// use formicar::{Pose2, Request};
+///
+/// let rate = CurvatureRate { max_rate_per_m2: Some(0.5) };
+/// let request = Request {
+///     curvature: CurvatureMode::Continuous(rate),
+///     ..Request::new(Pose2::default(), Pose2::new(9.0, 0.0, 0.0))
+/// };
+/// assert_ne!(request.curvature, CurvatureMode::default());
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum CurvatureMode {
     /// It may: the path is a chain of lines and arcs, at whose joints the wheels turn in no time.
     #[default]
@@ -20,12 +33,12 @@ pub enum CurvatureMode {
     Continuous(CurvatureRate),
 }
 
-/// How fast a curvature may change along the way.
+/// The limit of the curvature's rate of change.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CurvatureRate {
-    /// Fastest change of the curvature per driven metre, 1/m^2, 0.0001 to 10000. Where left out, what
-    /// the vehicle's steering rate allows at its speed.
+    /// Fastest change of the curvature per driven metre, 1/m^2, 0.0001 to 10000. Where left out,
+    /// what the vehicle's steering rate allows at its speed.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-4, max = 1e4))]
     pub max_rate_per_m2: Option<f64>,

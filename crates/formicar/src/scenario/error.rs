@@ -4,20 +4,20 @@ use crate::map::Cell;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// What is wrong with a request.
+/// An error in a request.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum ScenarioError {
     /// Something that every request needs.
     #[error("{what} is missing; hint: give it as x, y, heading in metres and radians")]
     Missing {
-        /// What is missing.
+        /// The name of the missing value.
         what: &'static str,
     },
-    /// A number that is none.
+    /// A number that is infinite or not a number.
     #[error("{what} is not finite: {value}")]
     NotFinite {
-        /// Which number.
+        /// The name of the number.
         what: &'static str,
         /// As printed.
         value: String,
@@ -25,24 +25,24 @@ pub enum ScenarioError {
     /// A number outside its range.
     #[error("{what} = {value}; it must be {range}")]
     OutOfRange {
-        /// Which number.
+        /// The name of the number.
         what: &'static str,
         /// Its value.
         value: f64,
-        /// What is allowed.
+        /// The allowed values.
         range: &'static str,
     },
-    /// A tolerance that is none.
+    /// A tolerance that is not above 0.
     #[error("{what} {unit} = {value}; it must be finite and above 0")]
     BadTolerance {
-        /// Of the goal or of a via point.
+        /// The owner of the tolerance: the goal or a via point.
         what: &'static str,
         /// `xy` or `yaw`.
         unit: &'static str,
         /// Its value.
         value: f64,
     },
-    /// Two ways of saying where to go.
+    /// A goal and a list of goals in one request.
     #[error("goal and goals are both given; hint: put every goal into goals")]
     GoalAndGoals,
     /// Continuous curvature for a vehicle that does not say how fast its wheels turn.
@@ -87,9 +87,9 @@ pub enum ScenarioError {
         x: f64,
         /// Metres.
         y: f64,
-        /// What is in the way, and by how much.
+        /// The obstacle, and the depth of the overlap.
         problem: String,
-        /// Where the vehicle would fit.
+        /// The nearest pose where the vehicle fits.
         hint: String,
         /// The obstacle cells that its footprint covers.
         cells: Vec<Cell>,
@@ -104,8 +104,9 @@ fn yaw_note(yaw_rad: f64) -> String {
     }
 }
 
-/// Which end of a path, or of a part of it.
+/// An end of a path, or of one of its legs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Endpoint {
     /// The first pose.
     Start,
@@ -128,6 +129,7 @@ impl std::fmt::Display for Endpoint {
 /// The outcome codes of Nav2's `ComputePathToPose` action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u16)]
+#[non_exhaustive]
 pub enum ErrorCode {
     /// A path was found.
     None = 0,

@@ -10,6 +10,7 @@ const N_FREE_HEADINGS: u32 = 72;
 
 /// The goal that a path ends at, or comes nearest to.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ReachedGoal {
     /// Its place among the goals, the first is 0.
     pub index: usize,

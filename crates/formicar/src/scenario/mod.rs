@@ -1,4 +1,4 @@
-//! What is asked: a map, a vehicle and a request, checked before anything is planned.
+//! The planning problem: a map, a vehicle and a request, checked before anything is planned.
 
 mod check;
 mod curvature;
@@ -10,4 +10,4 @@ pub use check::Scenario;
 pub use curvature::{CurvatureMode, CurvatureRate};
 pub use error::{Endpoint, ErrorCode, ScenarioError};
 pub use goals::ReachedGoal;
-pub use request::{GoalHeading, GoalTolerance, MotionMode, Request, StartHeading, ViaPoint};
+pub use request::{GoalHeading, GoalTolerance, Request, StartHeading, ViaPoint};

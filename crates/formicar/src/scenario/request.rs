@@ -2,12 +2,27 @@
 
 use super::CurvatureMode;
 use crate::geometry::{Point2, Pose2};
+use crate::vehicle::Gears;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
-/// From where to where, and under which conditions. World coordinates.
-#[derive(Clone, Debug, PartialEq)]
+/// A start, a goal, and the conditions of the path between them. World coordinates.
+///
+/// Fields may be added: end a literal with `..Request::new(start, goal)` or
+/// `..Default::default()`.
+///
+/// ```
+/// use formicar::{Gears, Pose2, Request};
+///
+/// let request = Request {
+///     gears: Gears::Forward,
+///     budget_steps: Some(100_000),
+///     ..Request::new(Pose2::new(2.0, 3.0, 0.0), Pose2::new(24.0, 9.0, 1.57))
+/// };
+/// assert_eq!(request.goals().count(), 1);
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Request {
     /// Pose of the rear-axle centre at the beginning.
     pub start: Pose2,
@@ -18,15 +33,15 @@ pub struct Request {
     pub other_goals: Vec<Pose2>,
     /// Places that the path passes on its way, in this order.
     pub via: Vec<ViaPoint>,
-    /// Whether the start heading is fixed.
+    /// The rule for the start heading.
     pub start_heading: StartHeading,
-    /// Whether the goal heading is fixed.
+    /// The rule for the goal heading.
     pub goal_heading: GoalHeading,
-    /// How far from the goal a path may end.
+    /// The tolerance at the goal.
     pub goal_tolerance: GoalTolerance,
-    /// Which gears may be used.
-    pub motion: MotionMode,
-    /// Whether the curvature may jump.
+    /// The gears that the path may use.
+    pub gears: Gears,
+    /// The continuity of the curvature.
     pub curvature: CurvatureMode,
     /// Time after which to give up; it needs an observer with a clock, and alone can make two
     /// runs differ.
@@ -41,32 +56,32 @@ impl Request {
         Self {
             start,
             goal,
-            other_goals: Vec::new(),
-            via: Vec::new(),
-            start_heading: StartHeading::default(),
-            goal_heading: GoalHeading::default(),
-            goal_tolerance: GoalTolerance::default(),
-            motion: MotionMode::default(),
-            curvature: CurvatureMode::default(),
-            deadline: None,
-            budget_steps: None,
+            ..Self::default()
         }
     }
 }
 
 /// A place that a path passes: the rear-axle centre comes within the tolerance of it.
+///
+/// ```
+/// use formicar::{Point2, Pose2, Request, ViaPoint};
+///
+/// let mut request = Request::new(Pose2::new(2.0, 3.0, 0.0), Pose2::new(24.0, 9.0, 0.0));
+/// request.via = vec![ViaPoint::new(Point2::new(12.0, 5.0)).with_heading(0.5)];
+/// assert_eq!(request.via[0].tolerance, ViaPoint::DEFAULT_TOLERANCE);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ViaPoint {
-    /// Where.
+    /// The position, world coordinates.
     pub position: Point2,
     /// The heading there, radians; none where the planner chooses.
     pub heading_rad: Option<f64>,
-    /// How far off the path may pass.
+    /// The tolerance at this point.
     pub tolerance: GoalTolerance,
 }
 
 impl ViaPoint {
-    /// How far off a path may pass where nothing else is asked for.
+    /// The tolerance of a via point by default.
     pub const DEFAULT_TOLERANCE: GoalTolerance = GoalTolerance {
         xy_m: 0.1,
         yaw_rad: 0.1,
@@ -91,9 +106,10 @@ impl ViaPoint {
     }
 }
 
-/// Whether the start heading is fixed.
+/// The rule for the start heading.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum StartHeading {
     /// As given.
     #[default]
@@ -102,9 +118,10 @@ pub enum StartHeading {
     Any,
 }
 
-/// Whether the goal heading is fixed.
+/// The rule for the goal heading.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum GoalHeading {
     /// As given.
     #[default]
@@ -115,18 +132,7 @@ pub enum GoalHeading {
     Any,
 }
 
-/// Which gears may be used.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum MotionMode {
-    /// Forward only.
-    Forward,
-    /// Forward and in reverse, reverse at a penalty.
-    #[default]
-    Reverse,
-}
-
-/// How far from the goal a path may end.
+/// The tolerance at the goal.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GoalTolerance {

@@ -64,7 +64,7 @@ pub fn smooth(
         careful_body: &careful_body,
         radius_m: problem.vehicle.min_turning_radius_m(),
         config,
-        motion: request.motion,
+        gears: request.gears,
         ends: &ends,
     };
     if config.corners == Corners::WideArcs

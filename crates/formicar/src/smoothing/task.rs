@@ -5,7 +5,7 @@ use super::roadmap::Facing;
 use crate::collision::{Body, Drive, ObstacleMap};
 use crate::geometry::{Arc, Curve, Pose2, dubins, reeds_shepp};
 use crate::objective::DriveCost;
-use crate::scenario::MotionMode;
+use crate::vehicle::Gears;
 
 /// Cost of a line or an arc along which the margin is not kept, turning radii.
 const TIGHT_RADII: f64 = 1.0;
@@ -31,7 +31,7 @@ pub(super) struct RoundingTask<'a> {
     pub(super) radius_m: f64,
     pub(super) config: &'a SmoothingConfig,
     pub(super) cost: &'a DriveCost,
-    pub(super) motion: MotionMode,
+    pub(super) gears: Gears,
     pub(super) ends: &'a Ends,
 }
 
@@ -43,9 +43,9 @@ impl RoundingTask<'_> {
 
     /// Facings in which the polyline may be followed.
     pub(super) fn facings(&self) -> &'static [Facing] {
-        match self.motion {
-            MotionMode::Forward => &[Facing::Along],
-            MotionMode::Reverse => &[Facing::Along, Facing::Against],
+        match self.gears {
+            Gears::Forward => &[Facing::Along],
+            Gears::Both => &[Facing::Along, Facing::Against],
         }
     }
 
@@ -56,9 +56,9 @@ impl RoundingTask<'_> {
 
     /// The same with another radius of their arcs, metres.
     pub(super) fn words_at(&self, from: Pose2, to: Pose2, radius_m: f64) -> Vec<Curve> {
-        match self.motion {
-            MotionMode::Forward => dubins::candidates(from, to, radius_m),
-            MotionMode::Reverse => reeds_shepp::candidates(from, to, radius_m),
+        match self.gears {
+            Gears::Forward => dubins::candidates(from, to, radius_m),
+            Gears::Both => reeds_shepp::candidates(from, to, radius_m),
         }
     }
 

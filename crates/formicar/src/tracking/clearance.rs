@@ -1,4 +1,4 @@
-//! How near the body came to obstacles on the way that it really drove.
+//! The clearance of the body along the path that it really drove.
 
 use super::Tracking;
 use crate::collision::{Body, Drive, ObstacleMap};
@@ -7,10 +7,11 @@ use crate::path::CurveSegment;
 use crate::validation::{CURVATURE_TOLERANCE, Violation, ViolationKind, judge_path};
 use crate::vehicle::Vehicle;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The body on its driven way: exact, as the judge measures any path.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[non_exhaustive]
 pub struct DrivenClearance {
     /// Least distance from the footprint (with its safety margin) to an occupied cell square or
     /// the map border, metres; 0 where it touched.
@@ -19,14 +20,15 @@ pub struct DrivenClearance {
     pub tightest: Pose2,
     /// Length driven to that pose, metres.
     pub tightest_driven_m: f64,
-    /// Where the body touched first; null where it never did.
+    /// The first contact of the body; null where it never touched.
     pub contact: Option<Contact>,
     /// Every stretch on which it touched; arc lengths are driven ones.
     pub violations: Vec<Violation>,
 }
 
 /// The first touch.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[non_exhaustive]
 pub struct Contact {
     /// With an occupied cell, or with the border of the map.
     pub kind: ViolationKind,
@@ -36,7 +38,7 @@ pub struct Contact {
     pub driven_m: f64,
     /// Arc length of the path's nearest place, metres.
     pub s_m: f64,
-    /// Where the vehicle was.
+    /// The pose of the vehicle.
     pub pose: Pose2,
 }
 

@@ -1,4 +1,4 @@
-//! What a simulated drive is made of: controller, speed, steps, start, and when to give up.
+//! The configuration of a simulated drive: controller, speed, steps, start, and when to give up.
 
 use super::{Controller, TrackingError};
 use crate::parameters::{OutOfRange, parameters};

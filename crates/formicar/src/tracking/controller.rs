@@ -1,4 +1,4 @@
-//! Which law turns the wheels.
+//! Control laws for the steering.
 
 use super::stretch::Stretch;
 use super::{PurePursuit, Stanley};
@@ -25,7 +25,7 @@ impl Default for Controller {
     }
 }
 
-/// What a law may know, in the travel frame.
+/// The input of a control law, in the travel frame.
 pub(super) struct View<'a> {
     pub(super) stretch: &'a Stretch,
     /// Length driven on the stretch.

@@ -1,9 +1,9 @@
-//! How far beside its path a vehicle is, and was along the way.
+//! The errors of a vehicle beside its path.
 
 use super::stretch::{Stretch, faced};
 use crate::geometry::{Pose2, wrap_angle};
 
-/// Where a vehicle is beside a stretch.
+/// The position of a vehicle relative to a stretch.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Offset {
     /// The place on the stretch that is nearest to the rear axle.

@@ -1,9 +1,9 @@
-//! Why a path cannot be driven in a simulation.
+//! Errors of simulated drives.
 
 use crate::parameters::OutOfRange;
 use thiserror::Error;
 
-/// What is wrong with a path, a vehicle or a configuration for a simulated drive.
+/// An error in a path, a vehicle or a configuration for a simulated drive.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum TrackingError {
@@ -31,7 +31,7 @@ pub enum TrackingError {
     Gap {
         /// Place of the segment after the jump.
         index: usize,
-        /// How far it jumps, metres.
+        /// The length of the jump, metres.
         gap_m: f64,
         /// The most that is allowed, metres.
         limit_m: f64,

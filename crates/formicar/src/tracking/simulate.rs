@@ -17,7 +17,8 @@ const LEAST_STEP: f64 = 0.01;
 /// By how much, relative to the limit, a controller may ask for more before that counts: less is
 /// the trembling about an arc that takes the limit itself.
 const SATURATED: f64 = 0.01;
-/// How far a driven arc may end from the simulated pose where it stands for several steps, metres.
+/// The largest distance of a driven arc's end from the simulated pose where the arc stands for
+/// several steps, metres.
 const SAME_ARC_M: f64 = 1e-9;
 
 /// Drives a vehicle along a path.
@@ -28,6 +29,20 @@ const SAME_ARC_M: f64 = 1e-9;
 /// # Errors
 /// A vehicle that does not steer or whose wheelbase is unknown, a parameter out of its range, a
 /// path that jumps or has numbers that are none, or one that would take more than 5 million steps.
+///
+/// ```
+/// use formicar::path::Direction::Forward;
+/// use formicar::tracking::{TrackingConfig, TrackingStatus, track};
+/// use formicar::{CurvePath, Pose2, Vehicle};
+///
+/// let mut path = CurvePath::new(Pose2::default());
+/// path.push(0.0, 3.0, Forward);
+/// path.push(0.5, 2.0, Forward);
+/// let driven = track(&path, &Vehicle::warehouse_amr(), &TrackingConfig::default())?;
+/// assert_eq!(driven.status, TrackingStatus::Arrived);
+/// assert!(driven.summary.max_cross_track_error_m < 0.1);
+/// # Ok::<(), formicar::tracking::TrackingError>(())
+/// ```
 pub fn track(
     path: &CurvePath,
     vehicle: &Vehicle,
@@ -176,7 +191,7 @@ impl Run {
         Ok(())
     }
 
-    /// How far to roll next; nowhere at the end of the stretch. Without a look at the vehicle the
+    /// The length to roll next; 0 at the end of the stretch. Without a look at the vehicle the
     /// end is where the driven length says, and a step ends where the path's steering changes.
     fn step_length_m(&self, leg: &Leg) -> Option<f64> {
         let length_m = leg.stretch.length_m();

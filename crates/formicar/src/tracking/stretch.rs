@@ -9,8 +9,9 @@ use std::f64::consts::{PI, TAU};
 /// Turns slighter than this have no center to measure angles about, 1/m.
 const STRAIGHT_PER_M: f64 = 1e-9;
 
-/// Lines and arcs in one gear (clothoids cut into arcs), all driven forward: in reverse the poses face the other way. Before
-/// its begin and beyond its end the first and the last line or arc go on.
+/// Lines and arcs in one gear (clothoids cut into arcs), all driven forward: in reverse the poses
+/// face the other way. Before its begin and beyond its end the first and the last line or arc go
+/// on.
 #[derive(Clone, Debug)]
 pub(super) struct Stretch {
     pub(super) direction: Direction,
@@ -110,7 +111,7 @@ impl Stretch {
         self.pieces[self.place(s_m)].curvature_per_m
     }
 
-    /// Where the line or arc that goes on from a place ends.
+    /// The end of the line or arc that goes on from a place.
     pub(super) fn next_joint_m(&self, s_m: f64) -> f64 {
         self.pieces[self.place(s_m)].end_m
     }

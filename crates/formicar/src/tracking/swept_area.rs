@@ -1,4 +1,4 @@
-//! How much ground a footprint sweeps along a path.
+//! The area that a footprint sweeps along a path.
 
 use crate::geometry::{ConvexPolygon, Point2, Pose2};
 use crate::path::CurvePath;
@@ -7,7 +7,7 @@ use crate::path::CurvePath;
 const ROWS_PER_BODY: f64 = 256.0;
 /// Most rows across everything; of very long ways the rows are wider.
 const MAX_ROWS: f64 = 131_072.0;
-/// How far, in sides of the footprint, a point may leave the chord of a piece.
+/// The largest distance of a point from the chord of a piece, in sides of the footprint.
 const MAX_BULGE: f64 = 2e-4;
 /// Heading of the rows, radians: along no wall that people build.
 const ROW_HEADING_RAD: f64 = 0.7;
@@ -15,11 +15,11 @@ const ROW_HEADING_RAD: f64 = 0.7;
 /// The area of the ground that a footprint covers along a path, square metres; ground that is
 /// covered twice counts once.
 ///
-/// What is covered at first, and what every edge sweeps from then on. The path is cut into pieces
-/// so slight that corners move along chords, to 1/5000 of the footprint's smaller side; along a
-/// line that is exact. The area of the union is a sum over rows 1/256 of that side apart: along
-/// each row the covered length is exact. The rows lie askew, so that few edges run along them.
-/// Measured on lines, rings and shunts whose area is known, the error is below 0.1 %.
+/// The area covered at first, and the area that every edge sweeps from then on. The path is cut
+/// into pieces so slight that corners move along chords, to 1/5000 of the footprint's smaller side;
+/// along a line that is exact. The area of the union is a sum over rows 1/256 of that side apart:
+/// along each row the covered length is exact. The rows lie askew, so that few edges run along
+/// them. Measured on lines, rings and shunts whose area is known, the error is below 0.1 %.
 pub fn swept_area_m2(footprint: &ConvexPolygon, path: &CurvePath) -> f64 {
     let (low, high) = footprint.bounds();
     let side_m = (high.x - low.x).min(high.y - low.y);
@@ -46,7 +46,7 @@ pub fn swept_area_m2(footprint: &ConvexPolygon, path: &CurvePath) -> f64 {
 
 type Edge = (Point2, Point2);
 
-/// What an edge sweeps on its way from one place to another: a quadrangle, or two triangles where
+/// The area that an edge sweeps from one place to another: a quadrangle, or two triangles where
 /// it turns about one of its own points.
 fn swept_edge((a0, b0): Edge, (a1, b1): Edge) -> Vec<Vec<Point2>> {
     let (before, after) = (b0 - a0, b1 - a1);
@@ -146,7 +146,7 @@ impl Rows {
     }
 }
 
-/// Where a convex shape meets a level.
+/// The intersection of a convex shape with a level.
 fn section(shape: &[Point2], y: f64) -> Option<[f64; 2]> {
     let crossing = |i: usize| {
         let (a, b) = (shape[i], shape[(i + 1) % shape.len()]);

@@ -1,18 +1,19 @@
-//! What came of a simulated drive: the trace, its summary, and both as a document.
+//! The result of a simulated drive: the trace, its summary, and both as a document.
 
 use super::{DrivenClearance, TrackingConfig};
 use crate::geometry::Pose2;
 use crate::path::{CurvePath, Direction};
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 
 /// Name and version of the document of a drive.
 pub const TRACKING_SCHEMA: &str = "formicar/track/1";
 
-/// How a simulated drive ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+/// The ending of a simulated drive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum TrackingStatus {
     /// At the end of the path, however far beside it.
     Arrived,
@@ -34,7 +35,8 @@ impl TrackingStatus {
 }
 
 /// The vehicle at one time; angles in radians, positive to the left.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[non_exhaustive]
 pub struct TracePoint {
     /// Time since the drive began, seconds; it goes on while the wheels are turned standing.
     pub t_s: f64,
@@ -60,7 +62,8 @@ pub struct TracePoint {
 }
 
 /// A simulated drive in numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[non_exhaustive]
 pub struct TrackingSummary {
     /// Time from begin to end, seconds.
     pub duration_s: f64,
@@ -93,33 +96,34 @@ pub struct TrackingSummary {
 
 /// A simulated drive.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Tracking {
-    /// How it ended.
+    /// The ending.
     pub status: TrackingStatus,
     /// Its numbers.
     pub summary: TrackingSummary,
     /// The vehicle every [`TrackingConfig::record_interval_s`], and wherever it stood.
     pub trace: Vec<TracePoint>,
-    /// What it drove: an arc for every time step, or for several with the same steering angle.
+    /// The driven path: an arc for every time step, or for several with the same steering angle.
     pub driven: CurvePath,
     /// The parameters, with what the vehicle added to them.
     pub config: TrackingConfig,
 }
 
-/// What front ends print about a simulated drive.
+/// The document that front ends print about a simulated drive.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct TrackingDocument<'a> {
     /// Name and version of this document: `formicar/track/1`.
     pub schema: &'static str,
-    /// Whether the vehicle arrived and its body touched nothing.
+    /// True if the vehicle arrived and its body touched nothing.
     pub tracked: bool,
-    /// How the drive ended.
+    /// The ending of the drive.
     pub status: TrackingStatus,
     /// Every parameter.
     pub config: &'a TrackingConfig,
     /// The drive in numbers.
     pub summary: &'a TrackingSummary,
-    /// How near the body came to obstacles.
+    /// The clearance of the body.
     pub clearance: &'a DrivenClearance,
     /// The vehicle over time.
     pub trace: &'a [TracePoint],

@@ -28,9 +28,10 @@ impl Source {
     }
 }
 
-/// What a cycle came to.
+/// The result of a cycle.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct CycleRecord {
     /// Evaluations so far.
     pub n_evaluations: u64,
@@ -40,11 +41,11 @@ pub struct CycleRecord {
     pub median_cost: f64,
     /// Candidates that were better than their source.
     pub n_gains: u32,
-    /// Whether a source was abandoned.
+    /// True if a source was abandoned.
     pub scouted: bool,
 }
 
-/// Which bees search; part of the place of a random number.
+/// The kind of bee that searches; part of the key of a random number.
 #[derive(Clone, Copy, Debug)]
 enum Phase {
     First,
@@ -119,7 +120,7 @@ impl BeeColony {
     /// Checks a state that was read: one cycle after another has made it, or might have.
     ///
     /// # Errors
-    /// What does not fit.
+    /// The part that does not fit.
     pub fn check(&self) -> Result<(), TuningError> {
         self.space.check()?;
         self.config.check()?;
@@ -150,15 +151,15 @@ impl BeeColony {
         Ok(())
     }
 
-    /// Whether all evaluations are used up.
+    /// True if all evaluations are used up.
     pub fn is_done(&self) -> bool {
         self.n_left() == 0
     }
 
     /// The next cycle; the first finds the sources. Nothing where the search is done.
     ///
-    /// `evaluate` gets the values of candidates and gives their costs in the same order. A cost that
-    /// is no finite number counts as the worst, `f64::MAX`.
+    /// `evaluate` gets the values of candidates and gives their costs in the same order. A cost
+    /// that is no finite number counts as the worst, `f64::MAX`.
     ///
     /// # Errors
     /// Not one cost for each candidate; the colony is then of no further use.
@@ -201,7 +202,7 @@ impl BeeColony {
         self.n_evaluations
     }
 
-    /// What each cycle came to.
+    /// The results of the cycles.
     pub fn history(&self) -> &[CycleRecord] {
         &self.history
     }
@@ -222,7 +223,7 @@ impl BeeColony {
         &self.config
     }
 
-    /// Whether another colony was begun like this one: it may be further on its way.
+    /// True if another colony was begun like this one: it may be further along.
     pub fn began_like(&self, other: &Self) -> bool {
         let begun = |colony: &Self| (colony.config.clone(), colony.seed, colony.known.clone());
         self.space == other.space && begun(self) == begun(other)

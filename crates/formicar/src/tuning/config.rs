@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 const MAX_EVALUATIONS: u64 = 1_000_000_000_000;
 
 parameters! {
-    /// How many bees search how long, and how.
+    /// The size of the colony, its cycles, and its rule.
     pub struct BeeColonyConfig where check_evaluations {
         /// SN: food sources, and as many employed bees and onlookers.
         #[range(4..=10_000)]

@@ -1,9 +1,9 @@
-//! What can be wrong with a search for parameters.
+//! Errors of a search for parameters.
 
 use crate::parameters::OutOfRange;
 use thiserror::Error;
 
-/// Why a search cannot begin or go on.
+/// The reason why a search cannot begin or go on.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum TuningError {
@@ -27,7 +27,7 @@ pub enum TuningError {
     /// A state that no search can have come to.
     #[error("this is no state of a bee colony: {what}")]
     State {
-        /// What does not fit.
+        /// The part that does not fit.
         what: &'static str,
     },
 }

@@ -1,10 +1,10 @@
-//! How a bee looks for a candidate beside a food source.
+//! The rules by which a bee draws a candidate beside a food source.
 
 use super::colony::Source;
 use crate::numeric::RandomStream;
 use serde::{Deserialize, Serialize};
 
-/// How one coordinate j, drawn at random, of a candidate is made; the others are those of the
+/// The rule for one coordinate j of a candidate, drawn at random; the others are those of the
 /// source `x_i` that the bee is at. Sources k and r1, r2, r3 are drawn at random and differ from
 /// each other and from i, phi is drawn from -1 to 1, y is the best place so far. A coordinate that
 /// leaves its range is set to its end.

@@ -1,4 +1,4 @@
-//! What can be chosen: named dimensions, each of which is a stretch of the unit interval.
+//! The space of parameters: named dimensions, each mapped to the unit interval.
 
 use super::TuningError;
 use crate::parameters::OutOfRange;
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// Largest magnitude of an integer bound: every integer up to it is an `f64`.
 const MAX_INTEGER: f64 = 9_007_199_254_740_992.0;
 
-/// Which values a dimension takes.
+/// The values that a dimension takes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Kind {
@@ -41,7 +41,7 @@ pub enum Kind {
     },
     /// One of so many things, told as its number from 0; all equally wide, in their order.
     Choice {
-        /// How many there are, at least 2.
+        /// Their number, at least 2.
         n_choices: u32,
     },
 }

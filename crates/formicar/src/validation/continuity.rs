@@ -1,4 +1,4 @@
-//! Whether the curvature of a path is continuous, and how fast it changes.
+//! Continuity of the curvature of a path, and its rate of change.
 
 use super::CURVATURE_TOLERANCE;
 use super::report::{Violation, ViolationKind};
@@ -17,7 +17,7 @@ struct Jump<'a> {
     amount_per_m: f64,
 }
 
-/// What is wrong with a path that the request asks to be continuous; nothing of other paths.
+/// The violations of a path that the request asks to be continuous; none of other paths.
 pub(super) fn violations(vehicle: &Vehicle, request: &Request, path: &CurvePath) -> Vec<Violation> {
     match request.max_curvature_rate_per_m2(vehicle) {
         Ok(None) => Vec::new(),
@@ -37,7 +37,7 @@ pub(super) fn violations(vehicle: &Vehicle, request: &Request, path: &CurvePath)
     }
 }
 
-/// Whether the curvature jumps nowhere inside one gear.
+/// True if the curvature jumps nowhere inside one gear.
 pub(super) fn is_continuous(path: &CurvePath) -> bool {
     jumps(path).next().is_none()
 }

@@ -4,10 +4,10 @@ use super::JOINT_TOLERANCE;
 use super::report::{Violation, ViolationKind};
 use crate::geometry::{Pose2, angle_difference};
 use crate::path::{CurvePath, Direction};
-use crate::scenario::{MotionMode, ReachedGoal, Request, StartHeading};
-use crate::vehicle::{Motion, Vehicle};
+use crate::scenario::{ReachedGoal, Request, StartHeading};
+use crate::vehicle::{Gears, Motion, Vehicle};
 
-/// What was found at both ends and about the gears.
+/// The findings at both ends and about the gears.
 pub(super) struct Ends {
     pub(super) reached: ReachedGoal,
     pub(super) violations: Vec<Violation>,
@@ -35,8 +35,8 @@ pub(super) fn check(vehicle: &Vehicle, request: &Request, path: &CurvePath) -> E
     }
 }
 
-/// How a first pose misses the start of a request by more than a tolerance, metres and radians: the
-/// place, and the heading where that is asked for.
+/// The message for a first pose that misses the start of a request by more than a tolerance, metres
+/// and radians: the place, and the heading where that is asked for.
 pub fn missed_start(
     vehicle: &Vehicle,
     request: &Request,
@@ -96,7 +96,7 @@ fn turn(a: Pose2, b: Pose2) -> f64 {
 }
 
 fn forbidden_gear(request: &Request, path: &CurvePath) -> Option<Violation> {
-    if request.motion == MotionMode::Reverse {
+    if request.gears == Gears::Both {
         return None;
     }
     let mut s_m = 0.0;

@@ -13,14 +13,14 @@
 //! its joints are then discontinuous, which the judge reports. A turn on the spot likewise stays
 //! a jump of the heading between two segments.
 //!
-//! *Points without headings.* A turn of more than 90 degrees between two steps is a cusp: there
-//! the gear changes; the first gear is the caller's to say. Between cusps the direction of motion at a point
-//! is the tangent of the circle through three consecutive points. Of the circles in which the
+//! *Points without headings.* A turn of more than 90 degrees between two steps is a cusp: there the
+//! gear changes; the first gear is the caller's to say. Between cusps the direction of motion at a
+//! point is the tangent of the circle through three consecutive points. Of the circles in which the
 //! point comes last, in the middle or first, the one whose curvature agrees best with its
 //! neighbours counts: beside a joint of two arcs this picks the circle that lies on one arc. Where
-//! none of the three agrees (arcs shorter than three steps, noise), directions are chosen that
-//! keep the biarcs around them as flat as they can be. At a cusp the headings before and after it
-//! are averaged.
+//! none of the three agrees (arcs shorter than three steps, noise), directions are chosen that keep
+//! the biarcs around them as flat as they can be. At a cusp the headings before and after it are
+//! averaged.
 //!
 //! *Rounded files.* Samples printed with few decimals zigzag by half a unit of the last one, and
 //! an exact curve through them would be curved beyond any steering limit. So a biarc reaches over
@@ -36,6 +36,16 @@ use std::f64::consts::{PI, SQRT_2};
 pub const FOREIGN_CURVATURE_SLACK: f64 = 0.05;
 
 /// The arcs and gears through poses with headings; empty without poses.
+///
+/// ```
+/// use formicar::Pose2;
+/// use formicar::validation::path_through_poses;
+///
+/// // Samples of a circle of radius 5 m become arcs again.
+/// let samples: Vec<_> = (0..20).map(|i| Pose2::default().advance(0.2, 0.3 * f64::from(i))).collect();
+/// let path = path_through_poses(&samples, 0.0).unwrap();
+/// assert!((path.segments()[0].curvature_per_m - 0.2).abs() < 1e-6);
+/// ```
 pub fn path_through_poses(poses: &[Pose2], rounding_m: f64) -> Option<CurvePath> {
     let gears: Vec<_> = poses.windows(2).map(|w| gear(w[0], w[1])).collect();
     path_through(poses, &gears, rounding_m)
@@ -175,8 +185,8 @@ fn between(from: Pose2, to: Pose2, direction: Direction) -> Vec<CurveSegment> {
     vec![one, segment(one.end(), second)]
 }
 
-/// How far a curve may pass by a sample: both coordinates are rounded, at the sample and at the
-/// ends of the curve.
+/// The largest distance between a curve and a sample: both coordinates are rounded, at the sample
+/// and at the ends of the curve.
 pub(super) fn deviation_m(rounding_m: f64) -> f64 {
     if rounding_m <= NEGLIGIBLE_ROUNDING_M {
         return 0.0;
@@ -184,7 +194,7 @@ pub(super) fn deviation_m(rounding_m: f64) -> f64 {
     2.0 * SQRT_2 * rounding_m
 }
 
-/// Whether a curve passes all poses within the rounding of their file.
+/// True if a curve passes all poses within the rounding of their file.
 fn passes(curve: &[CurveSegment], poses: &[Pose2], rounding_m: f64) -> bool {
     let off_m = deviation_m(rounding_m);
     let length_m: f64 = curve.iter().map(|segment| segment.length_m).sum();

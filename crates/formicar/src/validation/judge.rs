@@ -37,6 +37,21 @@ pub fn judge(
 
 /// Judges a path by itself: swept collision, border, curvature and joints, with a relative slack
 /// on the curvature limit for paths that were measured or sampled.
+///
+/// ```
+/// use formicar::collision::ObstacleMap;
+/// use formicar::path::Direction::Forward;
+/// use formicar::validation::judge_path;
+/// use formicar::{CurvePath, OccupancyGrid, Pose2, Vehicle};
+///
+/// let map = OccupancyGrid::from_rows(&["..........", "..........", "....#.....", ".........."], 1.0)?;
+/// let mut path = CurvePath::new(Pose2::new(2.0, 1.5, 0.0));
+/// path.push(0.0, 5.0, Forward);
+/// let report = judge_path(&ObstacleMap::new(&map), &Vehicle::warehouse_amr(), &path);
+/// assert!(!report.valid && report.min_clearance_m == 0.0);
+/// assert!(report.violations[0].message.contains("occupied"));
+/// # Ok::<(), formicar::MapError>(())
+/// ```
 pub fn judge_path(
     obstacles: &ObstacleMap,
     vehicle: &Vehicle,

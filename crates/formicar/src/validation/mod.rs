@@ -25,8 +25,8 @@ pub use judge::{judge, judge_path};
 pub use report::{Certificate, Report, Violation, ViolationKind};
 pub use samples::{Samples, SamplesError};
 
-/// How far two segments may miss each other: metres, and radians.
+/// The largest gap between two segments: metres, and radians.
 pub const JOINT_TOLERANCE: f64 = 1e-6;
 
-/// How far, relative to the limit, a curvature or its rate of change may exceed it.
+/// The share of the limit by which a curvature or its rate of change may exceed it.
 pub const CURVATURE_TOLERANCE: f64 = 1e-9;

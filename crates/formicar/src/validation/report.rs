@@ -1,14 +1,15 @@
-//! What the judge says: every violation, or a certificate.
+//! The judge's result: every violation, or a certificate.
 
 use crate::geometry::Pose2;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::ops::Deref;
 
 /// The judge's findings on one path; world coordinates.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[non_exhaustive]
 pub struct Report {
-    /// Whether nothing was violated.
+    /// True if nothing was violated.
     pub valid: bool,
     /// Least distance from the footprint (with its safety margin) to an occupied cell square or
     /// the map border along the whole swept path; 0 when touching.
@@ -22,11 +23,11 @@ pub struct Report {
     /// Fastest change of the curvature per driven metre along a segment; 0 on lines and arcs, whose
     /// jumps are not counted.
     pub max_curvature_rate_per_m2: f64,
-    /// Whether the curvature jumps nowhere inside one gear. Where the vehicle stands, at a change
+    /// True if the curvature jumps nowhere inside one gear. Where the vehicle stands, at a change
     /// of gear and at both ends, its wheels may turn.
     pub is_curvature_continuous: bool,
-    /// Which goal the path ends at, or comes nearest to: its place among the request's goals,
-    /// the first is 0; null where no goal was given.
+    /// The goal at which the path ends, or to which it comes nearest: its index among the request's
+    /// goals, the first is 0; null where no goal was given.
     pub goal_index: Option<usize>,
     /// Distance of the last pose from that goal; 0 where no goal was given.
     pub goal_error_m: f64,
@@ -35,7 +36,7 @@ pub struct Report {
     /// Arc length at which each via point is passed first, in their order, up to the first that
     /// is missed.
     pub via_s_m: Vec<f64>,
-    /// What is wrong, in order of arc length.
+    /// The violations, in order of arc length.
     pub violations: Vec<Violation>,
     /// Hash of what the judge saw of the map, 32 hexadecimal digits.
     pub map_hash: String,
@@ -45,10 +46,11 @@ pub struct Report {
     pub path_hash: String,
 }
 
-/// One thing that is wrong with a path.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+/// A violation on a path.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[non_exhaustive]
 pub struct Violation {
-    /// What kind of thing.
+    /// The kind of violation.
     pub kind: ViolationKind,
     /// Arc length where it is worst (or where it lies), metres.
     pub s_m: f64,
@@ -63,7 +65,7 @@ pub struct Violation {
 }
 
 /// Kinds of violations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum ViolationKind {
@@ -85,11 +87,11 @@ pub enum ViolationKind {
     Via,
     /// A gear that the request forbids.
     Gear,
-    /// A number that is none, or a negative length.
+    /// A number that is not finite, or a negative length.
     Malformed,
 }
 
-/// The judge's word that a path can be driven. Only the judge makes one.
+/// The judge's proof that a path can be driven. Only the judge makes one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct Certificate(Report);

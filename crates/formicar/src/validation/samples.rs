@@ -17,7 +17,7 @@ pub struct Samples {
     pub rounding_m: f64,
 }
 
-/// Why a table is no path.
+/// The reason why a table is no path.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SamplesError {
@@ -56,7 +56,7 @@ pub enum SamplesError {
 /// At coarser ones the curve could pass it so far off that a collision stays unseen.
 const N_DECIMALS_OF_ROUNDED: i32 = 3;
 
-/// Where the coordinates stand in a row.
+/// The columns of the coordinates.
 struct Columns {
     x: usize,
     y: usize,
@@ -108,7 +108,7 @@ impl Samples {
         Ok(samples)
     }
 
-    /// How far the path may pass by a sample, metres: both are rounded.
+    /// The largest distance between the path and a sample, metres: both are rounded.
     pub fn deviation_m(&self) -> f64 {
         deviation_m(self.rounding_m)
     }

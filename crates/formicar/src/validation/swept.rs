@@ -7,7 +7,7 @@ use crate::numeric::golden_section;
 use crate::path::CurvePath;
 use crate::vehicle::Vehicle;
 
-/// Where the body comes nearest to anything, and where it touches.
+/// The place where the body comes nearest to an obstacle, and the place where it touches one.
 pub(super) struct Swept {
     pub(super) min_clearance_m: f64,
     pub(super) tightest: Pose2,
@@ -23,7 +23,7 @@ const CLOTHOID_TOLERANCE_M: f64 = 5e-5;
 /// A piece of the path with a lower bound of its clearance.
 struct Piece {
     drive: Drive,
-    /// How far the path's body points may be from those of the drive, at most.
+    /// The largest distance of the path's body points from those of the drive.
     deviation_m: f64,
     s_m: f64,
     bound_m: f64,
@@ -36,7 +36,7 @@ impl Piece {
         (obstacles.drive_clearance_m(body, &self.drive, limit_m) - self.deviation_m).max(0.0)
     }
 
-    /// Whether it certainly touches nothing. What a point may touch, and what a body may not, is
+    /// True if it certainly touches nothing. What a point may touch, and what a body may not, is
     /// the collision module's to say; near a clothoid nothing may be touched.
     fn is_free(&self, obstacles: &ObstacleMap, body: &Body) -> bool {
         if self.deviation_m == 0.0 {

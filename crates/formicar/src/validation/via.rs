@@ -15,7 +15,7 @@ const LEAST_STEP_M: f64 = 1e-4;
 /// Poses that are looked at for how near a path came to a via point that it missed.
 const N_LOOKS: f64 = 1000.0;
 
-/// Where the via points are passed, and the first that is not.
+/// The arc lengths at which via points are passed, and the first point that is missed.
 pub(super) struct Passed {
     /// Arc length at the first pose that will do, in the order of the via points.
     pub(super) s_m: Vec<f64>,
@@ -45,10 +45,10 @@ pub(super) fn check(vehicle: &Vehicle, request: &Request, path: &CurvePath) -> P
     passed
 }
 
-/// What a path has to pass.
+/// The via points that a path has to pass.
 struct Gate {
     via: ViaPoint,
-    /// Whether headings count: a point has none.
+    /// True if headings count: a point has none.
     has_heading: bool,
 }
 
@@ -115,7 +115,7 @@ impl Gate {
         }
     }
 
-    /// What is wrong with a path that does not pass: how near it comes, or how far it is turned
+    /// The violation of a path that does not pass: how near it comes, or how far it is turned
     /// where it comes near enough.
     fn miss(&self, path: &CurvePath, from_m: f64, number: usize) -> Violation {
         let spacing_m = (path.length_m() / N_LOOKS).max(LEAST_STEP_M);

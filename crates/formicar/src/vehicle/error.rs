@@ -1,10 +1,10 @@
-//! What can be wrong with a vehicle.
+//! Errors in the description of a vehicle.
 
 use crate::geometry::PolygonError;
 use crate::parameters::OutOfRange;
 use thiserror::Error;
 
-/// What is wrong with a vehicle.
+/// An error in the description of a vehicle.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum VehicleError {
@@ -16,7 +16,7 @@ pub enum VehicleError {
     Missing {
         /// The measure.
         name: &'static str,
-        /// What to give.
+        /// The measures to give instead.
         hint: &'static str,
     },
     /// Two statements of the steering limit.

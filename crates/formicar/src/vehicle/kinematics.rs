@@ -1,4 +1,4 @@
-//! How a car moves: the kinematic bicycle, and the four wheels of the Ackermann chassis around it.
+//! The kinematics of a car: the bicycle, and the four wheels of the Ackermann chassis around it.
 
 use super::Vehicle;
 use crate::geometry::{Point2, Pose2};
@@ -15,7 +15,7 @@ pub struct BicycleState {
     pub steer_rad: f64,
 }
 
-/// What the driver does, held over a step.
+/// The driver's input, held over a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BicycleInput {
     /// Change of the speed, m/s^2.
@@ -54,6 +54,15 @@ impl BicycleState {
 
 /// The two axles of an Ackermann chassis, whose wheels all roll about one point on the line of
 /// the rear axle (Lei & Zheng 2020, sec. I and II.A).
+///
+/// ```
+/// use formicar::Vehicle;
+/// use formicar::vehicle::AckermannAxles;
+///
+/// let axles = AckermannAxles::of(&Vehicle::sedan()).unwrap();
+/// let (left_rad, right_rad) = axles.front_wheel_angles(0.3);
+/// assert!(left_rad > 0.3 && right_rad < 0.3);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AckermannAxles {
     /// Distance between the axles, metres.
@@ -95,7 +104,7 @@ impl AckermannAxles {
         (at(half_track), at(-half_track))
     }
 
-    /// How much smaller the rear inner wheel's path is than the front inner wheel's: the
+    /// The difference between the paths of the front and the rear inner wheel: the
     /// difference of their radii in metres (German *Innenraddifferenz*), 0 straight ahead.
     pub fn inner_wheel_path_difference_m(self, steer_rad: f64) -> f64 {
         let tan = steer_rad.tan().abs();
@@ -104,7 +113,7 @@ impl AckermannAxles {
         self.wheelbase_m * tan / (rear.hypot(tan) + rear)
     }
 
-    /// Where the wheels stand.
+    /// Positions of the wheels.
     pub fn wheel_positions(self, pose: Pose2) -> Wheels<Point2> {
         let (front, left) = (self.wheelbase_m, 0.5 * self.track_width_m);
         let at = |x, y| pose.transform(Point2::new(x, y));

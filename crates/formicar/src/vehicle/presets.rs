@@ -3,6 +3,16 @@
 use super::{Vehicle, VehicleError, VehicleParameters};
 
 /// Names of the built-in vehicles; the second is the default.
+///
+/// ```
+/// use formicar::Vehicle;
+/// use formicar::vehicle::PRESET_NAMES;
+///
+/// for name in PRESET_NAMES {
+///     assert!(Vehicle::preset(name).is_ok());
+/// }
+/// assert!(Vehicle::preset("hovercraft").unwrap_err().to_string().contains("sedan"));
+/// ```
 pub const PRESET_NAMES: [&str; 6] = [
     "lei2020",
     "warehouse_amr",

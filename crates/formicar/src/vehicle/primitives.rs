@@ -4,30 +4,10 @@
 //! lattice steps, so that a search over such motions never leaves the lattice and keeps headings
 //! as whole numbers.
 
-use super::{Motion, Vehicle, VehicleError};
+use super::{Gears, Motion, Vehicle, VehicleError};
 use crate::geometry::{Arc, Point2, Pose2};
 use crate::parameters::{OutOfRange, Range};
 use std::f64::consts::{PI, TAU};
-
-/// The gears that motions may use.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Gears {
-    /// Forward only.
-    Forward,
-    /// Forward and reverse.
-    #[default]
-    Both,
-}
-
-impl Gears {
-    /// The signs of the allowed gears: +1 forward, -1 reverse.
-    pub fn signs(self) -> &'static [i8] {
-        match self {
-            Self::Forward => &[1],
-            Self::Both => &[1, -1],
-        }
-    }
-}
 
 /// A line or arc that turns by whole lattice steps, the same from every heading.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,6 +40,16 @@ pub struct Alignment {
 }
 
 /// The motions of a vehicle on a lattice of headings, with their displacements.
+///
+/// ```
+/// use formicar::vehicle::PrimitiveSet;
+/// use formicar::{Gears, Vehicle};
+///
+/// let set = PrimitiveSet::new(&Vehicle::sedan(), 72, 0.5, Gears::Both)?;
+/// assert_eq!(set.primitives().len(), 10);
+/// assert_eq!(set.heading_after(0, &set.primitives()[0]), 0);
+/// # Ok::<(), formicar::VehicleError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct PrimitiveSet {
     n_headings: usize,
@@ -201,8 +191,8 @@ impl PrimitiveSet {
         steps.rem_euclid(self.n_headings as f64) as usize % self.n_headings
     }
 
-    /// Where each motion leads from a lattice heading, metres along the axes of the map, in the
-    /// order of [`Self::primitives`].
+    /// The displacement of each motion from a lattice heading, metres along the axes of the map, in
+    /// the order of [`Self::primitives`].
     pub fn displacements(&self, heading_index: usize) -> &[Point2] {
         let n = self.primitives.len();
         &self.displacements[heading_index * n..][..n]

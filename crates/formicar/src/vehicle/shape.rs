@@ -6,8 +6,9 @@ use crate::parameters::OutOfRange;
 use std::f64::consts::FRAC_PI_2;
 use xxhash_rust::xxh3::xxh3_128;
 
-/// How a vehicle may move.
+/// The kinds of motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Motion {
     /// Rolls on a steered axle: bounded curvature, heading along the path.
     Car,
@@ -15,7 +16,32 @@ pub enum Motion {
     Point,
 }
 
+impl Motion {
+    /// The word used in documents.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Car => "car",
+            Self::Point => "point",
+        }
+    }
+}
+
 /// A vehicle whose measures have been checked.
+///
+/// ```
+/// use formicar::{Vehicle, VehicleParameters};
+///
+/// let van = Vehicle::new(VehicleParameters {
+///     wheelbase_m: Some(3.0),
+///     width_m: Some(2.0),
+///     front_overhang_m: Some(0.9),
+///     rear_overhang_m: Some(1.1),
+///     min_turning_radius_m: Some(6.0),
+///     ..VehicleParameters::default()
+/// })?;
+/// assert_eq!(van.footprint().area(), 10.0);
+/// # Ok::<(), formicar::VehicleError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vehicle {
     parameters: VehicleParameters,
@@ -74,7 +100,7 @@ impl Vehicle {
         &self.parameters
     }
 
-    /// How it may move.
+    /// The kind of motion.
     pub fn motion(&self) -> Motion {
         self.motion
     }

@@ -57,7 +57,7 @@ impl SuspensionParameters {
     }
 }
 
-/// What a step along a path asks of the steering, and what the steering can give there.
+/// The steering that a step along a path needs, and the steering that is possible there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SteeringDemand {
     /// K: curvature as it is felt, 1/m, positive left.
@@ -141,7 +141,7 @@ impl SuspendedSteering {
         (curvature, self.deflect(curvature))
     }
 
-    /// Where the wheel that steers stands in the body frame.
+    /// Position of the steering wheel's contact in the body frame.
     fn wheel_m(&self, deflection_m: f64) -> (f64, f64) {
         let p = &self.parameters;
         let x = self.wheelbase_m + p.forward_gain * deflection_m.abs();

@@ -6,7 +6,7 @@ use crate::geometry::{Point2, Pose2, angle_difference};
 /// Motion of a body at an instant, of its reference point unless said otherwise; world frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BodyMotion {
-    /// Where the reference point is, and the heading theta.
+    /// Position of the reference point, and the heading theta.
     pub pose: Pose2,
     /// Velocity (`v_ox`, `v_oy`), m/s.
     pub velocity_mps: Point2,

@@ -5,8 +5,8 @@ use formicar::geometry::Pose2;
 use formicar::map::builtin;
 use formicar::numeric::Seed;
 use formicar::planner::{Planner, PlannerConfig, PlannerName};
-use formicar::scenario::{GoalHeading, GoalTolerance, MotionMode, Request, StartHeading};
-use formicar::vehicle::Vehicle;
+use formicar::scenario::{GoalHeading, GoalTolerance, Request, StartHeading};
+use formicar::vehicle::{Gears, Vehicle};
 
 /// Where ants win the race, are improved, and a budget may end it: in any phase the same.
 fn the_number_of_threads_changes_no_race(map: &str, request: usize) {
@@ -14,10 +14,10 @@ fn the_number_of_threads_changes_no_race(map: &str, request: usize) {
     let vehicle = Vehicle::preset(builtin.vehicle).expect("a preset");
     let ends = &builtin.requests[request];
     for budget_steps in [None, Some(900), Some(5000)] {
-        for motion in [MotionMode::Reverse, MotionMode::Forward] {
+        for gears in [Gears::Both, Gears::Forward] {
             let request = Request {
                 budget_steps,
-                motion,
+                gears,
                 ..Request::new(ends.start, ends.goal)
             };
             let config = PlannerConfig::of(PlannerName::Formicar);
@@ -71,7 +71,7 @@ fn heading_modes_gears_and_tolerances_hold() {
         ))
     };
     let forward = ask(Request {
-        motion: MotionMode::Forward,
+        gears: Gears::Forward,
         ..case.request.clone()
     });
     assert_eq!(forward.metrics.reverse_length_m, 0.0);

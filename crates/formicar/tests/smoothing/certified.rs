@@ -7,15 +7,15 @@ use formicar::map::builtin::BuiltinMap;
 use formicar::map::format::read_car_scenarios;
 use formicar::map::generate::{ScatterParameters, free_pose_pairs, scattered_obstacles};
 use formicar::numeric::Seed;
-use formicar::scenario::{GoalHeading, MotionMode, Request, StartHeading};
+use formicar::scenario::{GoalHeading, Request, StartHeading};
 use formicar::smoothing::{Rounding, SmoothingConfig};
-use formicar::vehicle::Vehicle;
+use formicar::vehicle::{Gears, Vehicle};
 use std::path::Path;
 
 /// The request with each mix of headings and gears.
 pub(super) fn variants(start: Pose2, goal: Pose2) -> Vec<Request> {
     let mut requests = Vec::new();
-    for motion in [MotionMode::Forward, MotionMode::Reverse] {
+    for gears in [Gears::Forward, Gears::Both] {
         for (start_heading, goal_heading) in [
             (StartHeading::Any, GoalHeading::Any),
             (StartHeading::Exact, GoalHeading::Any),
@@ -23,7 +23,7 @@ pub(super) fn variants(start: Pose2, goal: Pose2) -> Vec<Request> {
             (StartHeading::Exact, GoalHeading::Exact),
         ] {
             requests.push(Request {
-                motion,
+                gears,
                 start_heading,
                 goal_heading,
                 ..Request::new(start, goal)
@@ -57,7 +57,7 @@ fn what_is_returned_on_random_maps_is_certified() {
             for (start, goal) in free_pose_pairs(&map, &vehicle, 3, Seed(seed)).unwrap() {
                 for request in variants(start, goal) {
                     n_asked += 1;
-                    let in_reverse = usize::from(request.motion == MotionMode::Reverse);
+                    let in_reverse = usize::from(request.gears == Gears::Both);
                     let found = either().map(|config| place.certified(&config, &request));
                     let [by_turns, by_curves] = found.map(|f| matches!(f, Some(Ok(_))));
                     n_by_turns[in_reverse] += usize::from(by_turns);

@@ -4,10 +4,10 @@ use super::{Place, either, free_request, open};
 use formicar::geometry::{Pose2, dubins};
 use formicar::map::{Cell, GridFrame, OccupancyGrid};
 use formicar::path::Direction;
-use formicar::scenario::{GoalHeading, MotionMode, Request};
+use formicar::scenario::{GoalHeading, Request};
 use formicar::smoothing::{Corners, Rounding, SmoothingConfig, SmoothingError, smooth};
 use formicar::validation::judge;
-use formicar::vehicle::Vehicle;
+use formicar::vehicle::{Gears, Vehicle};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A corridor of 1.2 m, too narrow to turn around in.
@@ -48,7 +48,7 @@ fn where_it_cannot_turn_the_way_is_driven_in_reverse() {
         assert!((smoothed.path.length_m() - 5.0).abs() < 1e-6);
 
         let forward = Request {
-            motion: MotionMode::Forward,
+            gears: Gears::Forward,
             ..request
         };
         let error = place.certified(&config, &forward).unwrap().unwrap_err();
@@ -60,7 +60,7 @@ fn where_it_cannot_turn_the_way_is_driven_in_reverse() {
 fn a_bidirectional_goal_takes_either_heading() {
     let place = corridor(Pose2::default());
     let exact = Request {
-        motion: MotionMode::Forward,
+        gears: Gears::Forward,
         ..along(&place, 0.0, PI)
     };
     let both = Request {
@@ -89,7 +89,7 @@ fn near_ends_are_joined_by_one_curve() {
         start,
     ] {
         let request = Request {
-            motion: MotionMode::Forward,
+            gears: Gears::Forward,
             ..Request::new(start, goal)
         };
         let smoothed = place

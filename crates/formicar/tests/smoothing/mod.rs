@@ -12,13 +12,13 @@ use formicar::collision::ObstacleMap;
 use formicar::geometry::Pose2;
 use formicar::map::{BitGrid, Cell, DiagonalRule, GridFrame, MoveMasks, OccupancyGrid, ring};
 use formicar::progress::Limits;
-use formicar::scenario::{GoalHeading, MotionMode, Request, StartHeading};
+use formicar::scenario::{GoalHeading, Request, StartHeading};
 use formicar::search::{AstarWorkspace, astar};
 use formicar::smoothing::{
     RedundantNodes, Smoothed, SmoothingConfig, SmoothingError, SmoothingProblem, smooth,
 };
 use formicar::validation::judge;
-use formicar::vehicle::Vehicle;
+use formicar::vehicle::{Gears, Vehicle};
 
 const RULE: DiagonalRule = DiagonalRule::NoObstacles;
 
@@ -103,7 +103,7 @@ fn free_request(place: &Place, start: Cell, goal: Cell) -> Request {
     Request {
         start_heading: StartHeading::Any,
         goal_heading: GoalHeading::Any,
-        motion: MotionMode::Forward,
+        gears: Gears::Forward,
         ..Request::new(at(start), at(goal))
     }
 }

@@ -20,7 +20,7 @@ fn a_spline_begins_and_ends_with_the_headings_that_are_asked_for() {
     let cells = [(20, 20), (60, 30), (90, 80)].map(|(c, r)| Cell::new(c, r));
     let at = |cell: Cell, heading| Pose2::at(place.obstacles.frame().center(cell), heading);
     let request = Request {
-        motion: MotionMode::Forward,
+        gears: Gears::Forward,
         ..Request::new(at(cells[0], 0.4), at(cells[2], FRAC_PI_2))
     };
     for spacing in [0.0, 2.0, 8.0] {

@@ -6,7 +6,7 @@ use crate::values;
 use anyhow::{Result, bail};
 use clap::{Args, ValueHint};
 use formicar::planner::PlannerName;
-use formicar::scenario::MotionMode;
+use formicar::vehicle::Gears;
 use formicar_lab::run::Limits;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -54,8 +54,8 @@ pub(crate) struct BenchArgs {
 
     /// Which gears may be used; `reverse` allows both and penalizes reverse.
     #[arg(long, value_name = "MODE",
-          value_parser = values::word::<MotionMode>(&["forward", "reverse"]))]
-    pub(crate) motion: Option<MotionMode>,
+          value_parser = values::word::<Gears>(&["forward", "reverse"]))]
+    pub(crate) motion: Option<Gears>,
 
     /// Measure the first query of a planner; otherwise every query is asked twice in its process,
     /// and the second asking counts: that of a warm planner, which keeps nothing but what it knows

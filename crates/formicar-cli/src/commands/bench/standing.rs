@@ -4,7 +4,7 @@ use super::{BenchArgs, machine};
 use crate::commands::results::config_facts;
 use crate::files;
 use anyhow::{Context, Result};
-use formicar::scenario::MotionMode;
+use formicar::vehicle::Gears;
 use formicar_lab::analysis::parameter_section;
 use formicar_lab::analysis::standing::{Peer, Standing};
 use formicar_lab::campaign::Campaign;
@@ -26,7 +26,7 @@ pub(super) fn files(
     let mut standing = Standing {
         runs: records,
         peers,
-        forward_only: args.motion == Some(MotionMode::Forward),
+        forward_only: args.motion == Some(Gears::Forward),
     };
     // Variants in the order of the flags, the plain planner first.
     let configs = &campaign.configs;

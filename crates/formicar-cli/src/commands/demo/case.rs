@@ -6,7 +6,8 @@ use formicar::geometry::{Point2, Pose2};
 use formicar::map::builtin::{BuiltinKind, BuiltinMap};
 use formicar::map::{GridFrame, OCCUPIED, OccupancyGrid, UnknownPolicy};
 use formicar::planner::{MapRecord, PlannerName};
-use formicar::scenario::{MotionMode, Request};
+use formicar::scenario::Request;
+use formicar::vehicle::Gears;
 
 /// Search steps after which a run gives up: a second or two. In narrow places a step costs more.
 const BUDGET_STEPS: u64 = 200_000;
@@ -54,7 +55,7 @@ pub(super) struct Case {
     pub(super) start: Pose2,
     pub(super) goal: Pose2,
     pub(super) planner: PlannerName,
-    pub(super) motion: MotionMode,
+    pub(super) motion: Gears,
     /// An area closed for the vehicle.
     pub(super) keep_out: &'static [[f64; 2]],
     /// Origin of the map, if not (0, 0, 0); start and goal move with it.
@@ -83,7 +84,7 @@ impl Case {
             start: request.start,
             goal: request.goal,
             planner,
-            motion: MotionMode::default(),
+            motion: Gears::default(),
             keep_out: &[],
             origin: None,
             about: map.about,
@@ -145,7 +146,7 @@ impl Case {
     pub(super) fn request(&self) -> Request {
         let placed = |pose| self.origin.map_or(pose, |origin| origin.compose(pose));
         Request {
-            motion: self.motion,
+            gears: self.motion,
             budget_steps: Some(self.budget_steps()),
             ..Request::new(placed(self.start), placed(self.goal))
         }
@@ -166,7 +167,7 @@ impl Case {
         if self.planner != PlannerName::default() {
             words.push(format!("--planner {}", self.planner.name()));
         }
-        if self.motion == MotionMode::Forward {
+        if self.motion == Gears::Forward {
             words.push("--motion forward".to_owned());
         }
         if !self.keep_out.is_empty() {

@@ -5,7 +5,7 @@ use anyhow::Result;
 use formicar::geometry::Pose2;
 use formicar::map::builtin::{self, BuiltinKind, BuiltinMap};
 use formicar::planner::PlannerName;
-use formicar::scenario::MotionMode;
+use formicar::vehicle::Gears;
 use std::f64::consts::PI;
 
 /// Runs that are drawn as PNG too, one or two per chapter.
@@ -51,7 +51,7 @@ fn variations(chapter: Chapter) -> Result<Vec<Case>> {
     Ok(vec![
         Case {
             request: "nose-in-forward",
-            motion: MotionMode::Forward,
+            motion: Gears::Forward,
             about: "As parking-lot / nose-in, but reverse is forbidden: the way is longer, and no \
                     gear changes.",
             ..Case::new(chapter, "parking-lot", "nose-in")?

@@ -35,7 +35,7 @@ fn prepared(args: &TuneArgs, task: &Task) -> Result<Asked> {
     let [start, goal] = scenario.ends(task).with_context(name)?;
     let whole = Request::new(start, goal);
     let request = Request {
-        motion: args.modes.motion.unwrap_or(whole.motion),
+        gears: args.modes.motion.unwrap_or(whole.gears),
         start_heading: args.modes.start_heading.unwrap_or(whole.start_heading),
         goal_heading: args.modes.goal_heading.unwrap_or(whole.goal_heading),
         budget_steps: Some(args.budget),

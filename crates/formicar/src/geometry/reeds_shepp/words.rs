@@ -191,7 +191,7 @@ fn quarter_word(first: f64, straight: f64, last: (f64, f64)) -> [(f64, f64); 4] 
     ]
 }
 
-/// Whether the quarter circle, the line and the least that is left to turn are too long already.
+/// True if the quarter circle, the line and the least turn that remains are too long already.
 fn cannot_beat(straight: f64, turn: f64, sink: &impl WordSink) -> bool {
     // In the two gears the rest of the turn is |turn| - pi/2 at the least.
     FRAC_PI_2 - straight + (turn.abs() - FRAC_PI_2).abs() >= sink.bound()

@@ -10,7 +10,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// What can go wrong with built-in maps.
+/// Errors of built-in maps: unknown names.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum BuiltinError {
@@ -32,9 +32,10 @@ pub enum BuiltinError {
     },
 }
 
-/// What a built-in map is for.
+/// The purpose of a built-in map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum BuiltinKind {
     /// A small grid as papers on ant colonies use them.
     GridProblem,
@@ -46,23 +47,35 @@ pub enum BuiltinKind {
 
 /// A start and a goal on a built-in map, world poses of the rear axle.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct BuiltinRequest {
     /// Name within the map.
     pub id: &'static str,
-    /// Where the vehicle stands.
+    /// The start pose.
     pub start: Pose2,
-    /// Where it should stand.
+    /// The goal pose.
     pub goal: Pose2,
 }
 
 /// A map of our own, with a vehicle and requests that suit it.
+///
+/// ```
+/// use formicar::map::builtin::BuiltinMap;
+///
+/// let warehouse = BuiltinMap::by_name("warehouse")?;
+/// let request = warehouse.request("dock-to-rack")?;
+/// let cell = warehouse.grid().frame().cell_at(request.start.position());
+/// assert!(cell.is_some());
+/// # Ok::<(), formicar::map::builtin::BuiltinError>(())
+/// ```
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct BuiltinMap {
     /// Name, unique among built-in maps.
     pub name: &'static str,
-    /// What it shows, for which vehicle, of which measures, and what makes it hard.
+    /// A description: the scene, its measures, the vehicle, and the difficulty.
     pub about: &'static str,
-    /// What it is for.
+    /// Its purpose.
     pub kind: BuiltinKind,
     /// Preset name of the vehicle that it is made for.
     pub vehicle: &'static str,
@@ -71,7 +84,7 @@ pub struct BuiltinMap {
     source: Source,
 }
 
-/// Where the cells come from.
+/// The source of the cells.
 #[derive(Clone, Debug)]
 enum Source {
     /// Rows of text, first row on top, and the side of a cell in metres.

@@ -1,4 +1,4 @@
-//! What is wrong with a file, and where.
+//! Errors in files, with their places.
 
 use crate::map::MapError;
 use crate::vehicle::VehicleError;
@@ -6,7 +6,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// What is wrong with a file, with the file's name and the place in it where they are known.
+/// An error in a file, with the file's name and the place in it where they are known.
 #[derive(Debug)]
 pub struct FormatError {
     file: Option<PathBuf>,
@@ -16,6 +16,7 @@ pub struct FormatError {
 
 /// A place in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Place {
     /// A line, counted from 1.
     Line(usize),
@@ -25,7 +26,7 @@ pub enum Place {
     Value(usize),
 }
 
-/// What is wrong with a file or its contents.
+/// The problem with a file or its contents.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum FormatProblem {
@@ -44,13 +45,13 @@ pub enum FormatProblem {
     /// Nothing inside.
     #[error("the file is empty; expected {expected}")]
     Empty {
-        /// What should be there.
+        /// The expected contents.
         expected: &'static str,
     },
     /// Bytes that are no text.
     #[error("not UTF-8 text; expected {expected}")]
     NotText {
-        /// What should be there.
+        /// The expected contents.
         expected: &'static str,
     },
     /// The first bytes belong to another kind of file.
@@ -58,7 +59,7 @@ pub enum FormatProblem {
     WrongMagic {
         /// The first bytes.
         found: String,
-        /// What should be there.
+        /// The expected contents.
         expected: &'static str,
     },
     /// A file name that tells no format.
@@ -72,11 +73,11 @@ pub enum FormatProblem {
     /// The data ends too early.
     #[error("cut short: {found} {unit}, but {needed} are needed")]
     Truncated {
-        /// What is counted.
+        /// The unit that is counted.
         unit: &'static str,
-        /// How many there are.
+        /// The number found.
         found: usize,
-        /// How many there should be.
+        /// The number needed.
         needed: usize,
     },
     /// More data than the header announces.
@@ -84,27 +85,27 @@ pub enum FormatProblem {
         "{n_extra} {unit} too many after the last one; hint: the sizes at the top may be wrong"
     )]
     Trailing {
-        /// What is counted.
+        /// The unit that is counted.
         unit: &'static str,
-        /// How many are left over.
+        /// The number left over.
         n_extra: usize,
     },
     /// A value that is missing.
     #[error("{thing} is missing; hint: {hint}")]
     Missing {
-        /// Which value.
+        /// The name of the value.
         thing: &'static str,
-        /// What to write.
+        /// The value to write.
         hint: &'static str,
     },
     /// A value that cannot be.
     #[error("{thing} is {value}; it must be {expected}")]
     BadValue {
-        /// Which value.
+        /// The name of the value.
         thing: &'static str,
-        /// What it is.
+        /// The value found.
         value: String,
-        /// What is allowed.
+        /// The allowed values.
         expected: String,
     },
     /// Rows of different lengths.
@@ -118,13 +119,13 @@ pub enum FormatProblem {
     /// A value that the format has no sign for.
     #[error("{n_cells} cells with value {value}, which {format} cannot hold; hint: {hint}")]
     Unrepresentable {
-        /// How many cells.
+        /// The number of such cells.
         n_cells: usize,
         /// One of the values.
         value: i8,
         /// The format.
         format: &'static str,
-        /// What to do instead.
+        /// The remedy.
         hint: &'static str,
     },
     /// YAML that cannot be read.
@@ -147,7 +148,7 @@ pub enum FormatProblem {
     Scenario {
         /// Its name.
         id: String,
-        /// What is wrong with it.
+        /// The problem with it.
         problem: Box<FormatProblem>,
     },
 }
@@ -163,7 +164,7 @@ impl FormatError {
         self.place
     }
 
-    /// What is wrong.
+    /// The problem.
     pub fn problem(&self) -> &FormatProblem {
         &self.problem
     }

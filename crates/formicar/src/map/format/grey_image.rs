@@ -15,7 +15,7 @@ pub struct GreyImage {
     pub max_value: u16,
     /// `n_cols * n_rows` values of at most `max_value`.
     pub values: Vec<u16>,
-    /// Where the image is not fully opaque, if it has transparency at all.
+    /// The pixels that are not fully opaque, if the image has transparency at all.
     pub transparent: Option<Vec<bool>>,
 }
 

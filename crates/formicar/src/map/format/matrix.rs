@@ -11,6 +11,16 @@ use crate::map::{OCCUPIED, OccupancyGrid};
 ///
 /// # Errors
 /// Other values, rows of unequal length, no rows, or a bad resolution.
+///
+/// ```
+/// use formicar::map::format::parse_matrix;
+///
+/// let map = parse_matrix("0 0 1\n0 0 0\n", 0.5)?;
+/// assert_eq!((map.frame().n_cols(), map.lethal_cells().count()), (3, 1));
+/// let error = parse_matrix("0 0 1\n0 0\n", 0.5).unwrap_err();
+/// assert!(error.to_string().contains("line 2"));
+/// # Ok::<(), formicar::map::format::FormatError>(())
+/// ```
 pub fn parse_matrix(text: &str, resolution_m: f64) -> Result<OccupancyGrid, FormatError> {
     let mut rows = RowsFromTop::default();
     for (place, line) in lines(text).filter(|(_, line)| !line.trim().is_empty()) {

@@ -19,9 +19,9 @@ pub struct MovingAiScenario {
     pub n_cols: usize,
     /// Height of the map, cells.
     pub n_rows: usize,
-    /// Where it starts, row 0 at the bottom.
+    /// Start cell, row 0 at the bottom.
     pub start: Cell,
-    /// Where it ends, row 0 at the bottom.
+    /// Goal cell, row 0 at the bottom.
     pub goal: Cell,
     /// Shortest length in cells over straight and diagonal moves that cut no corner; printed with
     /// about six digits.
@@ -32,6 +32,14 @@ pub struct MovingAiScenario {
 ///
 /// # Errors
 /// Another kind of file, other cells, rows that do not fit the header, or a bad resolution.
+///
+/// ```
+/// use formicar::map::format::parse_movingai_map;
+///
+/// let map = parse_movingai_map("type octile\nheight 2\nwidth 3\nmap\n.@.\n...\n", 1.0)?;
+/// assert_eq!(map.lethal_cells().count(), 1);
+/// # Ok::<(), formicar::map::format::FormatError>(())
+/// ```
 pub fn parse_movingai_map(text: &str, resolution_m: f64) -> Result<OccupancyGrid, FormatError> {
     let mut lines = lines(text);
     let (n_cols, n_rows) = header(&mut lines)?;

@@ -11,7 +11,7 @@ use std::path::Path;
 /// Resolution of a TPCAP case where none is given, metres per cell.
 const DEFAULT_TPCAP_RESOLUTION_M: f64 = 0.1;
 
-/// What a map file may leave open.
+/// Settings that a map file may leave open.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ReadOptions {
     /// Side of a cell in metres, for formats that do not say: `MovingAI` maps and matrices (1 m

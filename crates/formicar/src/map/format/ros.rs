@@ -13,7 +13,7 @@ pub(super) const DEFAULT_OCCUPIED_THRESHOLD: f64 = 0.65;
 /// Largest occupancy of a free cell, where no description says otherwise.
 pub(super) const DEFAULT_FREE_THRESHOLD: f64 = 0.196;
 
-/// How grey values become cell values.
+/// The conversion of grey values to cell values.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RosMapMode {
@@ -42,6 +42,16 @@ impl fmt::Display for RosMapMode {
 /// `negate` is set. In the modes trinary and scale a cell is occupied from `occupied_threshold`
 /// on and free up to `free_threshold`, both included, and unknown where the image is not fully
 /// opaque.
+///
+/// ```
+/// use formicar::map::format::RosMapDescription;
+///
+/// let yaml = "image: depot.pgm\nresolution: 0.05\norigin: [-1.0, 2.0, 0.0]\n\
+///             negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.25\n";
+/// let description = RosMapDescription::from_yaml(yaml)?;
+/// assert_eq!((description.resolution_m, description.origin.y), (0.05, 2.0));
+/// # Ok::<(), formicar::map::format::FormatError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct RosMapDescription {
     /// The image as written: absolute, in the home folder (`~/`), or relative to the description.
@@ -50,13 +60,13 @@ pub struct RosMapDescription {
     pub resolution_m: f64,
     /// Pose of the lower left corner, metres and radians.
     pub origin: Pose2,
-    /// Whether white is occupied instead of black.
+    /// True if white is occupied instead of black.
     pub negate: bool,
     /// In 0..=1.
     pub occupied_threshold: f64,
     /// In 0..=1, at most `occupied_threshold`.
     pub free_threshold: f64,
-    /// How grey values become cell values.
+    /// The conversion of grey values to cell values.
     pub mode: RosMapMode,
 }
 
@@ -143,7 +153,7 @@ impl RosMapDescription {
         Ok(())
     }
 
-    /// Where the image lies, for a description in a file at `yaml_path`.
+    /// The path of the image, for a description in a file at `yaml_path`.
     ///
     /// # Errors
     /// A `~/` without a home folder.

@@ -54,7 +54,8 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = (Place, &str)> {
         .map(|(i, line)| (Place::Line(i + 1), line))
 }
 
-/// Whether each cell is occupied, rows from the top, for a format without unknown or graded cells.
+/// One flag per cell, true where it is occupied, rows from the top, for a format without unknown or
+/// graded cells.
 pub(super) fn occupied_from_top<'a>(
     grid: &'a OccupancyGrid,
     format: &'static str,

@@ -21,7 +21,7 @@ pub struct TpcapCase {
     pub goal: Pose2,
     /// Corners of each obstacle, in order.
     pub obstacles: Vec<Vec<Point2>>,
-    /// What was subtracted: a point of the file is this plus the point here.
+    /// The offset that was subtracted: a point of the file is this plus the point here.
     pub shift: Point2,
 }
 
@@ -118,7 +118,7 @@ impl TpcapCase {
 
 const EXPECTED: &str = "a TPCAP case: x0, y0, heading0, x1, y1, heading1, number of obstacles, ...";
 
-/// Whether a text looks like a case rather than a matrix: seven or more values in its first line,
+/// True if a text looks like a case rather than a matrix: seven or more values in its first line,
 /// not all of them 0 or 1.
 pub(super) fn is_tpcap(text: &str) -> bool {
     let first = text.trim_start().lines().next().unwrap_or("");

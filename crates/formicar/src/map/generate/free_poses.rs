@@ -94,7 +94,7 @@ impl PoseSampler<'_> {
         })
     }
 
-    /// Whether a body reaches into or touches a cell that its bounding box touches: unless one of
+    /// True if a body reaches into or touches a cell that its bounding box touches: unless one of
     /// its sides has the whole cell outside.
     fn reaches(&self, body: &ConvexPolygon, col: i64, row: i64) -> bool {
         let resolution = self.frame.resolution_m();

@@ -15,7 +15,7 @@ use super::MapError;
 use crate::parameters::OutOfRange;
 use thiserror::Error;
 
-/// Why a map or poses cannot be generated.
+/// The reason why a map or poses cannot be generated.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum GenerateError {

@@ -1,4 +1,4 @@
-//! What the generators can be told, with ranges.
+//! Parameters of the generators, with ranges.
 
 use super::GenerateError;
 use crate::parameters::parameters;

@@ -12,6 +12,16 @@ use std::ops::Range;
 ///
 /// # Errors
 /// Parameters out of range, or more cells than a map may have.
+///
+/// ```
+/// use formicar::Seed;
+/// use formicar::map::generate::{ScatterParameters, scattered_obstacles};
+///
+/// let parameters = ScatterParameters { density: 0.1, ..ScatterParameters::default() };
+/// let map = scattered_obstacles(&parameters, Seed(3))?;
+/// assert_eq!(map.values(), scattered_obstacles(&parameters, Seed(3))?.values());
+/// # Ok::<(), formicar::map::generate::GenerateError>(())
+/// ```
 pub fn scattered_obstacles(
     parameters: &ScatterParameters,
     seed: Seed,

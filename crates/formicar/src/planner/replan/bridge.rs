@@ -2,8 +2,8 @@
 
 use crate::geometry::{Arc, Curve, Pose2, dubins, reeds_shepp};
 use crate::objective::DriveCost;
-use crate::scenario::MotionMode;
 use crate::search::DriveProblem;
+use crate::vehicle::Gears;
 
 /// How far from where a stretch breaks off it may be left, and beyond where it goes on be met
 /// again: turning radii.
@@ -66,9 +66,9 @@ pub(super) fn bridge(
 
 fn words(problem: &DriveProblem, from: Pose2, to: Pose2) -> Vec<Curve> {
     let radius_m = problem.map().radius_m();
-    match problem.motion() {
-        MotionMode::Forward => dubins::candidates(from, to, radius_m),
-        MotionMode::Reverse => reeds_shepp::candidates(from, to, radius_m),
+    match problem.gears() {
+        Gears::Forward => dubins::candidates(from, to, radius_m),
+        Gears::Both => reeds_shepp::candidates(from, to, radius_m),
     }
 }
 

@@ -2,8 +2,8 @@
 
 use crate::geometry::Arc;
 use crate::path::{CurvePath, CurveSegment, Direction};
-use crate::scenario::MotionMode;
 use crate::search::DriveProblem;
+use crate::vehicle::Gears;
 use std::ops::Range;
 
 /// Segments that are not free are cut into pieces of so many turning radii.
@@ -52,8 +52,7 @@ fn push(kept: &mut Vec<Stretch>, next: Stretch) {
 /// Whether the vehicle can drive a segment, in a gear that the request allows, and is free on it.
 fn is_driven(problem: &DriveProblem, segment: &CurveSegment) -> bool {
     let bend = segment.curvature_per_m.abs() * problem.map().radius_m();
-    let is_allowed =
-        problem.motion() == MotionMode::Reverse || segment.direction == Direction::Forward;
+    let is_allowed = problem.gears() == Gears::Both || segment.direction == Direction::Forward;
     bend <= 1.0 + CURVATURE_TOLERANCE
         && is_allowed
         && problem.is_arc_free(segment.start, arc_of(segment))

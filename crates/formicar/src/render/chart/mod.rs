@@ -74,7 +74,7 @@ pub struct Series {
     pub points: Vec<Point2>,
     /// Its color.
     pub color: Color,
-    /// How it is broken.
+    /// Its dashes.
     pub dash: Dash,
     /// Its axis.
     pub side: Side,
@@ -134,9 +134,9 @@ pub enum DotFill {
 pub struct Band {
     /// Its name in the legend; empty to stay out of it.
     pub label: String,
-    /// Where it begins.
+    /// Its beginning.
     pub from: f64,
-    /// Where it ends.
+    /// Its end.
     pub to: f64,
 }
 

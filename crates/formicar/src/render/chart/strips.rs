@@ -16,7 +16,8 @@ pub struct ProfilePoint {
     pub curvature_per_m: f64,
     /// Steering angle, where the wheelbase is known.
     pub steer_rad: Option<f64>,
-    /// Distance from the footprint to the nearest obstacle; a value that is not finite leaves a gap.
+    /// Distance from the footprint to the nearest obstacle; a value that is not finite leaves a
+    /// gap.
     pub clearance_m: f64,
     /// The gear in which the place is reached.
     pub direction: Direction,

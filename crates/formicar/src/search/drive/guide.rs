@@ -4,8 +4,8 @@ use super::{DriveProblem, FieldGrid, Inflation, one_way};
 use crate::geometry::{Point2, Pose2, dubins, reeds_shepp};
 use crate::map::Cell;
 use crate::progress::{Limits, Status};
-use crate::scenario::MotionMode;
 use crate::search::{GuideField, STRAIGHT_COST, SearchError};
+use crate::vehicle::Gears;
 
 /// The goal field, which sees obstacles but no headings, and the shortest curve, which sees
 /// headings but no obstacles.
@@ -92,9 +92,9 @@ impl<'a> Guide<'a> {
         if goals.len() > MAX_CURVE_GOALS || along_field_m > CURVE_REACH_RADII * radius_m {
             return 0.0;
         }
-        let curve = |&goal: &Pose2| match problem.motion() {
-            MotionMode::Forward => dubins::distance(pose, goal, radius_m),
-            MotionMode::Reverse => reeds_shepp::distance(pose, goal, radius_m),
+        let curve = |&goal: &Pose2| match problem.gears() {
+            Gears::Forward => dubins::distance(pose, goal, radius_m),
+            Gears::Both => reeds_shepp::distance(pose, goal, radius_m),
         };
         let shortest = goals.iter().filter_map(curve).fold(f64::INFINITY, f64::min);
         if shortest.is_finite() { shortest } else { 0.0 }

@@ -20,7 +20,7 @@ impl DriveProblem<'_> {
         let arcs = self.primitives().alignment_arcs(from.pose.heading);
         for (step, Alignment { arc, heading_index }) in arcs.into_iter().enumerate() {
             let position = arc.end_from(from.pose).position();
-            let is_allowed = self.gears == Gears::Both || arc.signed_length_m >= 0.0;
+            let is_allowed = self.step_gears == Gears::Both || arc.signed_length_m >= 0.0;
             if is_allowed && let Some(state) = self.after(from, arc, position, heading_index) {
                 then(step, state);
             }
@@ -62,7 +62,7 @@ impl DriveProblem<'_> {
     /// Number of motions from a state on the lattice.
     pub fn n_primitives(&self) -> usize {
         let n_primitives = self.primitives().primitives().len();
-        match self.gears {
+        match self.step_gears {
             Gears::Forward => n_primitives / 2,
             Gears::Both => n_primitives,
         }

@@ -3,8 +3,8 @@
 use super::{DriveProblem, FieldGrid};
 use crate::geometry::{Point2, Pose2};
 use crate::map::Cell;
-use crate::scenario::MotionMode;
 use crate::search::STRAIGHT_COST;
+use crate::vehicle::Gears;
 use std::collections::BTreeSet;
 
 /// Half the width of a bar, turning radii: beyond it the vehicle can turn around on either side.
@@ -24,7 +24,7 @@ pub(super) fn tolls(problem: &DriveProblem, grid: FieldGrid) -> Vec<(Cell, u32)>
         n_cols,
         n_rows,
     } = grid;
-    if problem.motion() != MotionMode::Forward {
+    if problem.gears() != Gears::Forward {
         return Vec::new();
     }
     let radius_m = problem.map().radius_m();
@@ -75,7 +75,7 @@ mod tests {
     use std::sync::Arc;
 
     /// The way along the field from a start to a goal at (15, 15), both with heading 0.
-    fn along_field_m(x: f64, motion: MotionMode) -> f64 {
+    fn along_field_m(x: f64, gears: Gears) -> f64 {
         let row = ".".repeat(150);
         let map = OccupancyGrid::from_rows(&vec![&row[..]; 150], 0.2).unwrap();
         let obstacles = Arc::new(ObstacleMap::new(&map));
@@ -83,7 +83,7 @@ mod tests {
         let map = DrivableMap::new(obstacles, &Vehicle::warehouse_amr(), &config).unwrap();
         let start = Pose2::new(x, 15.0, 0.0);
         let request = Request {
-            motion,
+            gears,
             ..Request::new(start, Pose2::new(15.0, 15.0, 0.0))
         };
         let problem = DriveProblem::new(&map, &config, &request);
@@ -97,13 +97,13 @@ mod tests {
     #[test]
     fn without_reverse_the_field_leads_around_to_the_back_of_a_goal() {
         let radius_m = Vehicle::warehouse_amr().min_turning_radius_m();
-        for motion in [MotionMode::Forward, MotionMode::Reverse] {
-            let from_behind_m = along_field_m(10.0, motion);
-            assert!(from_behind_m < 5.01, "{motion:?}: {from_behind_m}");
+        for gears in [Gears::Forward, Gears::Both] {
+            let from_behind_m = along_field_m(10.0, gears);
+            assert!(from_behind_m < 5.01, "{gears:?}: {from_behind_m}");
         }
-        let from_ahead_m = along_field_m(20.0, MotionMode::Reverse);
+        let from_ahead_m = along_field_m(20.0, Gears::Both);
         assert!(from_ahead_m < 5.01, "{from_ahead_m}");
-        let around_m = along_field_m(20.0, MotionMode::Forward);
+        let around_m = along_field_m(20.0, Gears::Forward);
         assert!(around_m > 4.0 + HALF_RADII * radius_m, "{around_m}");
     }
 }

@@ -7,7 +7,7 @@ use crate::geometry::{Arc, Point2, Pose2, angle_difference};
 use crate::layers::SoftCosts;
 use crate::map::Cell;
 use crate::objective::DriveCost;
-use crate::scenario::{GoalTolerance, MotionMode, Request};
+use crate::scenario::{GoalTolerance, Request};
 use crate::vehicle::{Gears, PrimitiveSet};
 
 /// A request on a prepared map, in grid coordinates.
@@ -17,9 +17,9 @@ pub struct DriveProblem<'a> {
     pub(super) lattice: &'a Lattice,
     pub(super) config: &'a HybridAstarConfig,
     pub(super) cost: DriveCost,
-    motion: MotionMode,
-    /// Gears of primitives.
-    pub(super) gears: Gears,
+    gears: Gears,
+    /// Gears of the steps on the way; the last curve may use all of the request's.
+    pub(super) step_gears: Gears,
     tolerance: GoalTolerance,
     pub(super) side: Side,
     starts: Vec<Pose2>,
@@ -45,11 +45,8 @@ impl<'a> DriveProblem<'a> {
             lattice: map.coarse(),
             config,
             cost: config.cost(),
-            motion: request.motion,
-            gears: match request.motion {
-                MotionMode::Forward => Gears::Forward,
-                MotionMode::Reverse => Gears::Both,
-            },
+            gears: request.gears,
+            step_gears: request.gears,
             tolerance: request.goal_tolerance,
             side: Side::Start,
             starts: free(request.start_poses()),
@@ -97,14 +94,14 @@ impl<'a> DriveProblem<'a> {
             goals: problem.starts,
             ..problem
         };
-        (self.motion == MotionMode::Reverse).then(|| swapped(self.clone()))
+        (self.gears == Gears::Both).then(|| swapped(self.clone()))
     }
 
     /// The same query with forward motions alone, but for the last curve.
     #[must_use]
     pub fn forward_on_the_way(&self) -> Self {
         Self {
-            gears: Gears::Forward,
+            step_gears: Gears::Forward,
             ..self.clone()
         }
     }
@@ -161,8 +158,8 @@ impl<'a> DriveProblem<'a> {
     }
 
     /// The gears that may be used.
-    pub fn motion(&self) -> MotionMode {
-        self.motion
+    pub fn gears(&self) -> Gears {
+        self.gears
     }
 
     /// The map cell under a position, if it is on the map.

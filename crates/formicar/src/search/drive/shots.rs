@@ -2,7 +2,7 @@
 
 use super::{DriveProblem, Guide, State};
 use crate::geometry::{Arc, Curve, Point2, Pose2, dubins, reeds_shepp};
-use crate::scenario::MotionMode;
+use crate::vehicle::Gears;
 
 /// Words tried per goal, shortest first.
 const MAX_WORDS: usize = 6;
@@ -50,9 +50,9 @@ impl DriveProblem<'_> {
 
     fn words(&self, from: Pose2, to: Pose2) -> Vec<Curve> {
         let radius_m = self.map().radius_m();
-        match self.motion() {
-            MotionMode::Forward => dubins::candidates(from, to, radius_m),
-            MotionMode::Reverse => reeds_shepp::candidates(from, to, radius_m),
+        match self.gears() {
+            Gears::Forward => dubins::candidates(from, to, radius_m),
+            Gears::Both => reeds_shepp::candidates(from, to, radius_m),
         }
     }
 

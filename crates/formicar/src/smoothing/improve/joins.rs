@@ -4,11 +4,11 @@ use super::task::ImproveTask;
 use crate::geometry::joins::{Corner, Tangents};
 use crate::geometry::{Curve, Pose2, dubins, reeds_shepp};
 use crate::numeric::RandomStream;
-use crate::scenario::MotionMode;
+use crate::vehicle::Gears;
 
 /// In which gears two poses may be joined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Gears {
+pub(super) enum JoinGears {
     Forward,
     Reverse,
     Both,
@@ -49,19 +49,19 @@ impl Gap {
     pub(super) fn curves(
         self,
         task: &ImproveTask,
-        gears: Gears,
+        gears: JoinGears,
         stream: &mut RandomStream,
     ) -> Vec<Curve> {
         let mut curves = Vec::with_capacity(24);
         match gears {
-            Gears::Forward => self.push_forward(task, stream, &mut curves),
-            Gears::Reverse => {
+            JoinGears::Forward => self.push_forward(task, stream, &mut curves),
+            JoinGears::Reverse => {
                 self.swapped().push_forward(task, stream, &mut curves);
                 for curve in &mut curves {
                     *curve = curve.driven_back();
                 }
             }
-            Gears::Both => {
+            JoinGears::Both => {
                 let radius_m = self.draw_radius_m(task, stream);
                 for radius_m in [task.radius_m, radius_m] {
                     curves.extend(reeds_shepp::shortest(self.from, self.to, radius_m));
@@ -135,10 +135,10 @@ impl Gap {
     }
 }
 
-impl Gears {
+impl JoinGears {
     /// Whether a request allows them.
-    pub(super) fn are_allowed(self, motion: MotionMode) -> bool {
-        motion == MotionMode::Reverse || self == Self::Forward
+    pub(super) fn are_allowed(self, allowed: Gears) -> bool {
+        allowed == Gears::Both || self == Self::Forward
     }
 }
 

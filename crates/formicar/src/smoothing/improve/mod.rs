@@ -20,7 +20,7 @@ use crate::geometry::{Arc, Pose2, angle_difference};
 use crate::numeric::{RandomStream, Seed};
 use crate::objective::{DriveCost, DriveMeter, SoftCost};
 use crate::progress::{Limits, Status};
-use crate::scenario::MotionMode;
+use crate::vehicle::Gears;
 use chain::Chain;
 use operators::Attempt;
 use task::ImproveTask;
@@ -35,7 +35,7 @@ pub struct ImproveProblem<'a> {
     /// The vehicle's least turning radius, metres.
     pub radius_m: f64,
     /// Gears that may be used.
-    pub motion: MotionMode,
+    pub gears: Gears,
     /// Cost of driving.
     pub cost: &'a DriveCost,
     /// Additional cost of positions.
@@ -81,7 +81,7 @@ impl<'a> Improver<'a> {
             obstacles,
             body,
             radius_m,
-            motion,
+            gears,
             cost,
             soft,
         } = *problem;
@@ -92,7 +92,7 @@ impl<'a> Improver<'a> {
                 obstacles,
                 body,
                 radius_m,
-                motion,
+                gears,
                 meter,
                 config,
             },

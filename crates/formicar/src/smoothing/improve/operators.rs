@@ -2,7 +2,7 @@
 //! change of gear.
 
 use super::chain::{Chain, PathPosition, Piece};
-use super::joins::{Gap, Gears, log_uniform};
+use super::joins::{Gap, JoinGears, log_uniform};
 use super::task::ImproveTask;
 use super::window::{Route, Window};
 use crate::geometry::{Curve, Pose2};
@@ -72,7 +72,7 @@ impl Attempt<'_> {
         }
         let (from, to) = (self.chain.position(from_m), self.chain.position(to_m));
         let gears = if any_gears {
-            vec![Gears::Forward, Gears::Reverse, Gears::Both]
+            vec![JoinGears::Forward, JoinGears::Reverse, JoinGears::Both]
         } else {
             self.gears_between(from, to)
         };
@@ -167,7 +167,7 @@ impl Attempt<'_> {
     }
 
     /// The cheapest curves over a gap if there were no obstacles.
-    fn best_curves(&mut self, gap: Gap, gears: &[Gears]) -> Vec<Curve> {
+    fn best_curves(&mut self, gap: Gap, gears: &[JoinGears]) -> Vec<Curve> {
         let mut curves: Vec<(f64, Curve)> = Vec::new();
         for &gears in gears {
             let found = gap.curves(self.task, gears, &mut self.stream).into_iter();
@@ -188,15 +188,15 @@ impl Attempt<'_> {
             + joints.sum::<f64>()
     }
 
-    fn curves(&mut self, [from, to]: [PathPosition; 2], gears: &[Gears]) -> Vec<Curve> {
+    fn curves(&mut self, [from, to]: [PathPosition; 2], gears: &[JoinGears]) -> Vec<Curve> {
         let gap = Gap {
             from: self.chain.pose(from),
             to: self.chain.pose(to),
             curvatures_per_m: [from, to].map(|position| self.curvature_at(position)),
         };
-        let motion = self.task.motion;
+        let allowed = self.task.gears;
         let mut curves = Vec::new();
-        for &gears in gears.iter().filter(|gears| gears.are_allowed(motion)) {
+        for &gears in gears.iter().filter(|gears| gears.are_allowed(allowed)) {
             curves.extend(gap.curves(self.task, gears, &mut self.stream));
         }
         curves
@@ -207,22 +207,22 @@ impl Attempt<'_> {
     }
 
     /// Gears worth trying between two places.
-    fn gears_between(&self, from: PathPosition, to: PathPosition) -> Vec<Gears> {
+    fn gears_between(&self, from: PathPosition, to: PathPosition) -> Vec<JoinGears> {
         let pieces = &self.chain.pieces[from.piece..=to.piece];
         let has_forward = pieces.iter().any(Piece::is_forward);
         let has_reverse = pieces.iter().any(|piece| !piece.is_forward());
         let mut gears = Vec::with_capacity(3);
         if has_forward {
-            gears.push(Gears::Forward);
+            gears.push(JoinGears::Forward);
         }
         if has_reverse {
-            gears.push(Gears::Reverse);
+            gears.push(JoinGears::Reverse);
         }
         let length_m = pieces.iter().map(|p| p.arc.length_m()).sum::<f64>();
         if has_reverse || length_m < BOTH_GEARS_RADII * self.task.radius_m {
-            gears.push(Gears::Both);
+            gears.push(JoinGears::Both);
         }
-        gears.retain(|gears| gears.are_allowed(self.task.motion));
+        gears.retain(|gears| gears.are_allowed(self.task.gears));
         gears
     }
 

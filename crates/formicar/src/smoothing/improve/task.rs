@@ -4,7 +4,7 @@ use super::ImproveConfig;
 use crate::collision::{Body, Drive, ObstacleMap};
 use crate::geometry::{Arc, Pose2};
 use crate::objective::DriveMeter;
-use crate::scenario::MotionMode;
+use crate::vehicle::Gears;
 
 /// A body on a map with its parameters; grid coordinates.
 #[derive(Clone, Copy)]
@@ -12,7 +12,7 @@ pub(super) struct ImproveTask<'a> {
     pub(super) obstacles: &'a ObstacleMap,
     pub(super) body: &'a Body,
     pub(super) radius_m: f64,
-    pub(super) motion: MotionMode,
+    pub(super) gears: Gears,
     pub(super) meter: DriveMeter<'a>,
     pub(super) config: &'a ImproveConfig,
 }

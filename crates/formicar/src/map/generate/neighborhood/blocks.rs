@@ -1,4 +1,4 @@
-//! What blocks of houses hold: yards, nooks, passages, and fronts that stand back.
+//! The contents of blocks of houses: yards, nooks, passages, and fronts that stand back.
 
 use super::{Axis, Rect, Side, Town};
 
