@@ -10,7 +10,7 @@ use serde::Deserialize;
 use std::str::FromStr;
 use toml::{Spanned, Value};
 
-/// What a campaign file says; names in it that stand for files are not looked up yet.
+/// The contents of a campaign file; names in it that stand for files are not looked up yet.
 #[derive(Clone, Debug)]
 pub struct Document {
     /// The file.
@@ -25,7 +25,7 @@ pub struct Document {
     pub budget_steps: Option<u64>,
     /// Time after which a run gives up, milliseconds.
     pub deadline_ms: Option<f64>,
-    /// Whether the first asking of a planner counts.
+    /// True if the first query of a planner counts.
     pub is_cold: bool,
     /// `own`, presets and vehicle files.
     pub vehicles: Vec<Spanned<String>>,
@@ -40,7 +40,7 @@ pub struct Document {
 pub struct PlannerEntry {
     /// The name it goes by.
     pub name: Spanned<String>,
-    /// Which planner.
+    /// The built-in planner.
     pub planner: PlannerName,
     /// A configuration file, or parameters in place.
     pub config: Option<Spanned<Value>>,
@@ -83,7 +83,7 @@ impl Document {
     /// Reads a campaign file.
     ///
     /// # Errors
-    /// What is wrong, with file, line, key, and what is allowed there.
+    /// The mistake, with file, line, key, and what is allowed there.
     pub fn read(text: Text) -> Result<Self> {
         let raw: Raw = toml::from_str(&text.text).map_err(|error| text.refused(&error))?;
         if raw.scenarios.is_empty() {

@@ -4,7 +4,7 @@ use anyhow::{Context, Result, bail};
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 
-/// That this process is the only writer; it ends with the process, however that ends.
+/// Marks this process as the only writer; it ends with the process, however that ends.
 #[derive(Debug)]
 pub(super) struct Lock {
     path: PathBuf,

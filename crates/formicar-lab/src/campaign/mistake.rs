@@ -1,4 +1,4 @@
-//! Where in a file something is wrong.
+//! Mistakes in a file, with their place.
 
 use anyhow::anyhow;
 use std::fmt::Display;
@@ -14,7 +14,7 @@ pub struct Text {
 }
 
 impl Text {
-    /// What is wrong at a place: file, line, key, and the matter itself.
+    /// A mistake at a place: file, line, key, and the matter itself.
     pub fn mistake(&self, span: Option<Range<usize>>, what: impl Display) -> anyhow::Error {
         let Some(span) = span else {
             return anyhow!("{}: {what}", self.name);
@@ -25,7 +25,7 @@ impl Text {
         anyhow!("{}, line {line}{key}: {what}", self.name)
     }
 
-    /// What a syntax or type error of TOML tells, at its place.
+    /// A syntax or type error of TOML, at its place.
     pub fn refused(&self, error: &toml::de::Error) -> anyhow::Error {
         let what = error.message().replace('\n', " ");
         let key = error.span().map(|span| self.key_at(self.line_of(&span)));
@@ -57,7 +57,7 @@ impl Text {
     }
 }
 
-/// What the list of a key looks like.
+/// The form of the list of a key.
 fn list_of(key: &str) -> String {
     let item = match key {
         "builtin" => "\"MAP\"",

@@ -16,11 +16,11 @@ pub struct ScenariosEntry {
     /// Car scenarios (.json), a TPCAP case (.csv) or `MovingAI` scenarios (.scen), relative to the
     /// campaign file.
     pub file: Option<Spanned<String>>,
-    /// Which of the scenarios: ids of the file, or requests of the built-in maps.
+    /// Some of the scenarios: ids of the file, or requests of the built-in maps.
     pub ids: Option<Vec<Spanned<String>>>,
     /// At most so many, evenly spread from first to last.
     pub limit: Option<Spanned<u32>>,
-    /// Side of a cell of a TPCAP case, metres.
+    /// Side of a cell of a TPCAP case, meters.
     pub resolution_m: Option<Spanned<f64>>,
 }
 

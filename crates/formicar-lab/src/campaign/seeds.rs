@@ -36,7 +36,7 @@ pub(super) fn seeds(value: Option<&Spanned<Value>>, text: &Text) -> Result<Vec<u
     }
 }
 
-/// What is wrong with a value that names no seeds.
+/// The mistake in a value that names no seeds.
 fn fault(value: &Value) -> String {
     let bound = |name: &str| value.get(name).and_then(Value::as_integer);
     match (bound("from"), bound("to")) {

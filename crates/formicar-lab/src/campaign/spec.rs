@@ -95,6 +95,10 @@ impl CampaignSpec {
             if let Some(command) = &contender.rival {
                 return program(&contender.name, command);
             }
+            if contender.is_in_process {
+                let json = json!({ "in_process": contender.name });
+                return Ok(ConfigRecord::of_json(&contender.name, json.to_string()));
+            }
             let record = ConfigRecord::new(&contender.name, &sources.config(contender)?)?;
             Ok(ConfigRecord {
                 tuned: contender.tuned.clone(),

@@ -72,7 +72,7 @@ impl Stored {
     /// All runs as CSV, in the order of the campaign.
     ///
     /// # Errors
-    /// None in practice: the table is written to memory.
+    /// No failure is known: the table is written to memory.
     pub fn csv(&self) -> Result<String> {
         to_csv(&self.runs)
     }

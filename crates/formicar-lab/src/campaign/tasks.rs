@@ -173,6 +173,17 @@ fn task_of_line(source: &str, map: &Path, i: usize, line: &MovingAiScenario) -> 
     }
 }
 
+impl<'a> TaskSource<'a> {
+    /// A word alone.
+    pub fn of(word: &'a str) -> Self {
+        Self {
+            word,
+            limit: None,
+            resolution_m: None,
+        }
+    }
+}
+
 /// At most `limit` of `n` indices, evenly spread from the first to the last.
 pub fn spread(n: usize, limit: Option<u32>) -> impl Iterator<Item = usize> {
     let n_taken = limit.map_or(n, |limit| n.min(limit as usize));
@@ -201,12 +212,11 @@ mod tests {
     }
 
     fn named(word: &str) -> Result<Vec<Task>> {
-        let source = TaskSource {
-            word,
-            limit: None,
-            resolution_m: None,
-        };
-        tasks_of(&source, &[PlannerName::Astar], &BuiltinSources)
+        tasks_of(
+            &TaskSource::of(word),
+            &[PlannerName::Astar],
+            &BuiltinSources,
+        )
     }
 
     #[test]

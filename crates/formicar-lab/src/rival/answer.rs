@@ -1,4 +1,4 @@
-//! What a program answers, as JSON.
+//! The answer of a program, as JSON.
 
 use anyhow::{Context, Result, bail};
 use formicar::geometry::Point2;
@@ -12,12 +12,12 @@ pub struct RivalAnswer {
     /// `ready` (who it is was asked), `found`, or a word for why there is no path: `not_found`,
     /// `refused` (a request that it does not plan for), `unavailable` (it is not installed).
     pub status: String,
-    /// Why there is no path.
+    /// The reason why there is no path.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
     /// Name and version of the planner.
     pub version: String,
-    /// Of the path, dense: [x, y, heading], or [x, y] where it knows no headings.
+    /// Poses of the path, dense: [x, y, heading], or [x, y] where it knows no headings.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub poses: Vec<Vec<f64>>,
     /// Time to the first path, seconds.
@@ -35,7 +35,7 @@ pub struct RivalAnswer {
     /// Most memory, bytes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub peak_rss_bytes: Option<u64>,
-    /// [time, length] of every path that was better than those before, seconds and metres.
+    /// [time, length] of every path that was better than those before, seconds and meters.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub improvements: Vec<[f64; 2]>,
 }
@@ -90,7 +90,7 @@ impl RivalAnswer {
         }
         let is_improvement = |[at_s, length_m]: &[f64; 2]| *at_s >= 0.0 && *length_m >= 0.0;
         if let Some(i) = self.improvements.iter().position(|i| !is_improvement(i)) {
-            bail!("improvements[{i}]: expected [seconds, metres], both from 0 on");
+            bail!("improvements[{i}]: expected [seconds, meters], both from 0 on");
         }
         self.check_poses()
     }

@@ -13,7 +13,7 @@ use std::time::Instant;
 /// The version that `Cargo.lock` holds.
 const VERSION: &str = "pathfinding 4.16.0";
 
-/// What the crate answers to a question: a path over cells, for points.
+/// The crate's answer to a question: a path over cells, for points.
 ///
 /// # Errors
 /// A map that is none.

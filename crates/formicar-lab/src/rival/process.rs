@@ -7,7 +7,7 @@ use std::sync::mpsc::{self, Receiver};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// What a program came to.
+/// The output of a program.
 #[derive(Clone, Debug)]
 pub struct Ended {
     /// All that it printed.
@@ -20,7 +20,7 @@ pub struct Ended {
 const MAX_PRINTED: u64 = 1 << 28;
 /// The most that is kept of its errors, bytes.
 const MAX_ERRORS: u64 = 1 << 16;
-/// How often it is asked whether it is over.
+/// Interval between looks at a running program.
 const PAUSE: Duration = Duration::from_millis(2);
 /// Time after its end by which its output is there.
 const LAST_WORDS: Duration = Duration::from_secs(5);

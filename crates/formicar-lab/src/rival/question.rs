@@ -1,4 +1,4 @@
-//! What a program is asked, as JSON.
+//! The question to a program, as JSON.
 
 use anyhow::{Result, bail};
 use formicar::collision::ObstacleMap;
@@ -17,16 +17,16 @@ pub const SCHEMA: &str = "formicar/rival/1";
 pub struct Question {
     /// [`SCHEMA`].
     pub schema: String,
-    /// What is asked.
+    /// The kind of question.
     #[serde(flatten)]
     pub ask: Ask,
 }
 
-/// What a program is asked.
+/// The kind of a question.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(tag = "ask", rename_all = "snake_case")]
 pub enum Ask {
-    /// Who it is; asked once, before a campaign.
+    /// Name and version; asked once, before a campaign.
     Version,
     /// A path.
     Plan(Box<RivalRequest>),
@@ -39,13 +39,13 @@ pub struct RivalRequest {
     pub map: RivalMap,
     /// The vehicle.
     pub vehicle: RivalVehicle,
-    /// x, y, heading; metres and radians.
+    /// x, y, heading; meters and radians.
     pub start: [f64; 3],
     /// x, y, heading.
     pub goal: [f64; 3],
-    /// Which gears may be used: `reverse` allows both.
+    /// The gears that may be used: `reverse` allows both.
     pub motion: Gears,
-    /// How far the end may be off the goal.
+    /// Tolerance at the goal.
     pub goal_tolerance: GoalTolerance,
     /// Time after which to give up, milliseconds.
     pub deadline_ms: Option<f64>,
@@ -83,7 +83,7 @@ pub struct RivalVehicle {
 }
 
 impl Question {
-    /// Who a program is.
+    /// Asks for name and version.
     pub fn version() -> Self {
         Self {
             schema: SCHEMA.to_owned(),
@@ -128,7 +128,7 @@ impl RivalVehicle {
 }
 
 impl RivalMap {
-    /// Of a map.
+    /// The description of a map.
     pub fn new(obstacles: &ObstacleMap) -> Self {
         let (frame, cells) = (obstacles.frame(), obstacles.lethal());
         let origin = frame.origin();
@@ -141,7 +141,7 @@ impl RivalMap {
         }
     }
 
-    /// Where its cells lie.
+    /// The frame of its cells.
     ///
     /// # Errors
     /// Sizes that no map has.

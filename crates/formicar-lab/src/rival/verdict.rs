@@ -8,7 +8,7 @@ use formicar::validation::{
 };
 use formicar::vehicle::{Motion, Vehicle};
 
-/// How far a sampled path may begin from the start, metres and radians: its samples are rounded.
+/// Tolerance at the start of a sampled path, meters and radians: its samples are rounded.
 pub const START_TOLERANCE: f64 = 1e-3;
 
 /// A path read from samples, with the judge's findings.
@@ -51,7 +51,7 @@ impl Verdict {
         })
     }
 
-    /// Why it cannot be driven, in a sentence or two.
+    /// The reason why it cannot be driven, in a sentence or two.
     pub fn reason(&self) -> Option<String> {
         let violations = &self.report.violations;
         let first = violations.first()?;
@@ -61,7 +61,7 @@ impl Verdict {
         })
     }
 
-    /// Whether it is of a size that can be measured: a path that lies elsewhere may be endless.
+    /// True if it is of a size that can be measured: a path that lies elsewhere may be endless.
     pub fn is_measurable(&self, obstacles: &ObstacleMap) -> bool {
         let extent = obstacles.frame().extent_m();
         let is_malformed = |v: &Violation| v.kind == ViolationKind::Malformed;

@@ -88,6 +88,33 @@ pub struct Contender {
     /// Keys of the parameters that a tuning has found, as its file holds them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tuned: Vec<String>,
+    /// True if a planner of the caller plans, handed over to [`InProcess`](super::InProcess) under
+    /// this name; `planner` then stands for nothing.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_in_process: bool,
+}
+
+impl Contender {
+    /// A built-in planner as it is.
+    pub fn built_in(planner: PlannerName) -> Self {
+        Self {
+            name: planner.name().to_owned(),
+            planner,
+            config: toml::Table::new(),
+            rival: None,
+            tuned: Vec::new(),
+            is_in_process: false,
+        }
+    }
+
+    /// A planner of the caller under a name.
+    pub fn in_process(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            is_in_process: true,
+            ..Self::built_in(PlannerName::default())
+        }
+    }
 }
 
 /// A program that plans.

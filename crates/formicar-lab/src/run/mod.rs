@@ -6,6 +6,7 @@
 
 mod columns;
 mod evaluate;
+mod in_process;
 mod job;
 mod measure;
 mod ours;
@@ -19,6 +20,7 @@ mod theirs;
 pub mod usage;
 
 pub use evaluate::Evaluation;
+pub use in_process::InProcess;
 pub use job::{
     Contender, Job, Limits, OWN_VEHICLE, Place, RivalCommand, RunKey, Task, VehicleChoice,
 };
@@ -34,7 +36,7 @@ pub(crate) use record::number;
 pub(crate) use table::{read_torn_csv, record_line, records_csv};
 pub(crate) use theirs::ask;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 
 /// Carries out a job in this process.
 ///
@@ -42,6 +44,9 @@ use anyhow::Result;
 /// A scenario, a vehicle or parameters that cannot be read; a planner that cannot be asked is a
 /// result.
 pub fn carry_out(job: &Job, sources: &dyn Sources, begun: Begun) -> Result<Run> {
+    if job.contender.is_in_process {
+        bail!("the planner {:?} was not handed over", job.contender.name);
+    }
     match &job.contender.rival {
         Some(command) => theirs::run(job, command, sources),
         None => ours::run(job, sources, begun),

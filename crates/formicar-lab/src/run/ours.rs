@@ -13,8 +13,8 @@ use formicar::map::format::write_atomically;
 use formicar::numeric::Seed;
 use formicar::path::{CurvePath, GridPath};
 use formicar::planner::{
-    AnswerContext, ColonyRecord, Outcome, PathDocument, Plan, PlanError, Planner, PlannerConfig,
-    RequestDocument, Stages, Timing,
+    AnswerContext, ColonyRecord, Outcome, PathDocument, Plan, PlanError, Planner, RequestDocument,
+    Stages, Timing,
 };
 use std::f64::consts::SQRT_2;
 use std::path::Path;
@@ -51,14 +51,25 @@ impl Begun {
 pub(super) fn run(job: &Job, sources: &dyn Sources, begun: Begun) -> Result<Run> {
     let config = sources.config(&job.contender)?;
     let scenario = sources.load(&job.task, job.vehicle_source())?;
+    let make =
+        |scenario: &LoadedScenario| Planner::new(&scenario.map, scenario.vehicle.clone(), config);
+    run_planner(job, scenario, begun, make)
+}
+
+/// Carries out a run of a planner that is made for its scenario.
+pub(super) fn run_planner(
+    job: &Job,
+    scenario: LoadedScenario,
+    begun: Begun,
+    make: impl FnOnce(&LoadedScenario) -> Result<Planner, PlanError>,
+) -> Result<Run> {
     let setup = Instant::now();
-    let planner = Planner::new(&scenario.map, scenario.vehicle.clone(), config.clone())?;
+    let planner = make(&scenario)?;
     let run = OurRun {
         job,
         request: scenario.request(job)?,
         map_setup_s: setup.elapsed().as_secs_f64(),
         planner,
-        config,
         scenario,
         begun,
     };
@@ -70,7 +81,6 @@ struct OurRun<'a> {
     request: RequestDocument,
     map_setup_s: f64,
     planner: Planner,
-    config: PlannerConfig,
     scenario: LoadedScenario,
     begun: Begun,
 }
@@ -154,7 +164,7 @@ impl OurRun<'_> {
             map: self.scenario.map_record.clone(),
             vehicle: self.planner.vehicle(),
             vehicle_name: &self.scenario.vehicle_name,
-            config: &self.config,
+            config: self.planner.config(),
         };
         let measured = &counted.answer;
         let timing = Timing {

@@ -13,7 +13,7 @@ use formicar::vehicle::Vehicle;
 pub struct LoadedScenario {
     /// The map, every cell free or occupied.
     pub map: OccupancyGrid,
-    /// Where the map comes from.
+    /// The origin of the map.
     pub map_record: MapRecord,
     /// The vehicle.
     pub vehicle: Vehicle,

@@ -12,7 +12,7 @@ const NEEDED: [&str; 4] = ["scenario", "planner", "seed", "status"];
 /// Runs as CSV, with where they come from.
 ///
 /// # Errors
-/// None in practice: the table is written to memory.
+/// No failure is known: the table is written to memory.
 pub fn to_csv(runs: &[Run]) -> Result<String> {
     let header: Vec<&str> = [COLUMNS, ORIGIN_COLUMNS].concat();
     let values = |run: &Run| [run.record.values(), run.origin.values()].concat();

@@ -1,4 +1,4 @@
-//! What this process has used so far, and its tie to the process that started it.
+//! Resources that this process has used so far, and its tie to the process that started it.
 
 use std::fs;
 

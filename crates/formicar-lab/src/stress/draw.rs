@@ -17,9 +17,9 @@ pub(super) struct Drawn {
     pub(super) map: OccupancyGrid,
     pub(super) vehicle: Vehicle,
     pub(super) request: Request,
-    /// Whether the vehicle stands free at every pose that the request names.
+    /// True if the vehicle stands free at every pose that the request names.
     pub(super) stands_free: bool,
-    /// Whether a wall was built around the goal.
+    /// True if a wall was built around the goal.
     pub(super) is_sealed: bool,
 }
 

@@ -10,9 +10,9 @@ use formicar::validation::judge;
 
 /// Poses are looked at this often along a cell's side.
 const LOOKS_PER_CELL: f64 = 8.0;
-/// How much nearer than certified a pose may be by rounding, metres.
+/// Distance by which a pose may be nearer than certified through rounding, meters.
 const ROUNDING_M: f64 = 1e-9;
-/// How much the curvature of two poses' headings may exceed the limit by rounding, relative.
+/// Share by which the curvature of two poses' headings may exceed the limit through rounding.
 const CURVATURE_ROUNDING: f64 = 1e-6;
 /// One scenario in so many is asked twice.
 const ASK_TWICE: u64 = 8;

@@ -11,7 +11,7 @@ const MAX_SIDE: usize = 200;
 /// Shortest side of a map, cells.
 const MIN_SIDE: usize = 24;
 
-/// What a map is like.
+/// The kind of a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Open,
@@ -213,7 +213,7 @@ fn spots(map: &mut OccupancyGrid, value: i8, random: &mut RandomStream) {
     }
 }
 
-/// How many walls' places there are, and how long a wall is.
+/// The number of places for walls, and the length of a wall.
 fn sides(map: &OccupancyGrid, along_rows: bool) -> (usize, usize) {
     let (n_cols, n_rows) = (map.frame().n_cols(), map.frame().n_rows());
     if along_rows {

@@ -1,23 +1,23 @@
-//! What came of all scenarios.
+//! The results of all scenarios.
 
 use super::draw::Drawn;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// What came of one scenario.
+/// The result of one scenario.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Case {
     /// Its seed.
     pub seed: u64,
     /// Ground, vehicle, and what was asked, in words.
     pub about: String,
-    /// How it ended: a status, `refused` or `panicked`.
+    /// Its ending: a status, `refused` or `panicked`.
     pub status: String,
     /// Search steps.
     pub n_steps: u64,
     /// Hash of the path, or the reason why there is none.
     pub told: String,
-    /// What must not be.
+    /// Violations found.
     pub violations: Vec<String>,
 }
 
@@ -74,7 +74,7 @@ impl Case {
 /// All scenarios in the order of their seeds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StressReport {
-    /// What came of each.
+    /// The result of each.
     pub cases: Vec<Case>,
 }
 
@@ -84,12 +84,12 @@ impl StressReport {
         self.cases.iter().filter(|case| !case.violations.is_empty())
     }
 
-    /// How many there are of them.
+    /// The number of scenarios with violations.
     pub fn n_violations(&self) -> usize {
         self.violations().count()
     }
 
-    /// How many scenarios ended in each way.
+    /// The number of scenarios for each ending.
     pub fn counts(&self) -> BTreeMap<&str, usize> {
         let mut counts = BTreeMap::new();
         for case in &self.cases {

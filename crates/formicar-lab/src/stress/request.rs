@@ -58,7 +58,7 @@ pub(super) fn draw(
     (request, all_free)
 }
 
-/// None mostly, sometimes one to `most`.
+/// Zero mostly, sometimes one to `most`.
 fn few(random: &mut RandomStream, most: usize) -> usize {
     match random.below(6) {
         0 => 1 + random.below(most),
@@ -88,7 +88,7 @@ fn tolerance(random: &mut RandomStream) -> Option<GoalTolerance> {
     (random.below(2) == 0).then_some(tolerance)
 }
 
-/// Where a vehicle stands on a map.
+/// Places for a vehicle on a map.
 struct Poses<'a> {
     obstacles: &'a ObstacleMap,
     body: &'a Body,

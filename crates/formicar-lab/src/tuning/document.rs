@@ -5,7 +5,7 @@ use serde_json::Value;
 use toml::Table;
 use xxhash_rust::xxh3::xxh3_128;
 
-/// What the first line of the file begins with; the hash of the values follows.
+/// The beginning of the first line of the file; the hash of the values follows.
 const MARK: &str = "# Found by formicar tune. Hash of the values: ";
 
 /// A document of tuned values as TOML, below a line that tells so. The line holds their hash, so
@@ -19,7 +19,7 @@ pub fn tuned_text(document: &Value) -> Result<String> {
     Ok(format!("{MARK}{hash}\n{text}"))
 }
 
-/// Whether a configuration file holds what a tuning has found, and nothing else.
+/// True if a configuration file holds what a tuning has found, and nothing else.
 pub fn is_as_tuned(text: &str) -> bool {
     let told = text.lines().find_map(|line| line.strip_prefix(MARK));
     let values = text.parse::<Table>().ok();
@@ -27,7 +27,7 @@ pub fn is_as_tuned(text: &str) -> bool {
         .is_some_and(|(told, values)| told.trim() == hash(&values))
 }
 
-/// Of the values, however they are laid out.
+/// The hash of the values, however they are laid out.
 fn hash(values: &Table) -> String {
     format!("{:032x}", xxh3_128(values.to_string().as_bytes()))
 }

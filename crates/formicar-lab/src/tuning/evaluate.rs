@@ -10,7 +10,7 @@ use formicar::numeric::Seed;
 use formicar::planner::PlannerConfig;
 use formicar::tuning::{BeeColony, BeeColonyConfig};
 
-/// What is tuned, on what, how.
+/// A tuning: parameters, scenarios, objective and search.
 #[derive(Clone, Debug)]
 pub struct Tuning {
     /// The parameters.
@@ -19,7 +19,7 @@ pub struct Tuning {
     pub scenarios: Vec<Asked>,
     /// Scenarios that are held back.
     pub held_back: Vec<Asked>,
-    /// What is made small.
+    /// The objective, which is minimized.
     pub objective: Objective,
     /// Runs of each candidate on each scenario, with the seeds 0 to `n_seeds` - 1.
     pub n_seeds: u64,
@@ -34,7 +34,7 @@ pub struct Tuning {
 }
 
 impl Tuning {
-    /// Where a search begins: the default is its first candidate. References are taken by
+    /// The beginning of a search: the default is its first candidate. References are taken by
     /// [`Tuning::cycle`].
     ///
     /// # Errors
@@ -65,7 +65,7 @@ impl Tuning {
     /// The next cycle.
     ///
     /// # Errors
-    /// None that is known: candidates that do not go together count as the worst.
+    /// No failure is known: candidates whose values do not go together count as the worst.
     pub fn cycle(&self, state: &mut TuningState) -> Result<()> {
         if state.references.is_empty() {
             state.references = self.references()?;
@@ -122,7 +122,7 @@ impl Tuning {
         config.context("the default is no valid configuration")
     }
 
-    /// How dear each candidate is, infinite where its values do not go together; and per scenario
+    /// The score of each candidate, infinite where its values do not go together; and per scenario
     /// whether any of them found a path.
     fn scores(&self, all: &[Vec<f64>], references: &[Reference]) -> (Vec<f64>, Vec<bool>) {
         let configs: Vec<_> = all.iter().map(|values| self.space.config(values)).collect();

@@ -6,7 +6,7 @@
 //! and [`Tuning::verdict`] looks at the scenarios that were held back. Steps and costs decide,
 //! never time, so that the same tuning gives the same result anywhere.
 
-mod course;
+mod convergence;
 mod document;
 mod evaluate;
 mod leaf;

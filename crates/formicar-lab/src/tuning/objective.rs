@@ -1,13 +1,13 @@
-//! What a run is worth.
+//! The objective of a tuning.
 
 use super::TunedRun;
 use serde::{Deserialize, Serialize};
 
-/// What tuning makes small.
+/// The quantity that tuning minimizes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Measure {
-    /// What the path costs to drive; with a weight, the steps to the first path too.
+    /// The cost of driving the path; with a weight, the steps to the first path too.
     Cost,
     /// The steps to the first path alone.
     Steps,
@@ -15,11 +15,11 @@ pub enum Measure {
     Success,
 }
 
-/// What tuning makes small: the geometric mean over runs of how many times dearer a run is than
+/// The objective of tuning: the geometric mean over runs of how many times dearer a run is than
 /// the reference of its scenario.
 ///
 /// A run with a certified path counts `(cost / reference)^a ((1 + steps) / (1 + reference))^b`,
-/// where the cost is that of [`DriveCost::default`](formicar::objective::DriveCost), in metres,
+/// where the cost is that of [`DriveCost::default`](formicar::objective::DriveCost), in meters,
 /// whatever the planner itself improves, and the steps are those to the first certified path:
 /// a = 1 and b the weight for [`Measure::Cost`], 0 and 1 for [`Measure::Steps`], 0 and 0 for
 /// [`Measure::Success`]. It counts at most [`Objective::FAILURE`], which is what a run without a
@@ -27,13 +27,13 @@ pub enum Measure {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Objective {
-    /// What is measured.
+    /// The quantity that is measured.
     pub measure: Measure,
     /// b of [`Measure::Cost`], at least 0.
     pub steps_weight: f64,
 }
 
-/// What a scenario is held against: medians over the seeds of the default's runs that found a path.
+/// The reference of a scenario: medians over the seeds of the default's runs that found a path.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Reference {
@@ -44,7 +44,7 @@ pub(super) struct Reference {
 }
 
 impl Objective {
-    /// How many times dearer a run without a path is.
+    /// The factor by which a run without a path is dearer.
     pub const FAILURE: f64 = 10.0;
 
     /// The logarithm of how many times dearer a run is than its reference.

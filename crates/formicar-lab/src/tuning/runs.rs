@@ -18,7 +18,7 @@ pub struct Asked {
     obstacles: std::sync::Arc<ObstacleMap>,
 }
 
-/// What a run came to.
+/// The result of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TunedRun {
     /// The scenario.
@@ -27,11 +27,11 @@ pub struct TunedRun {
     pub variant: &'static str,
     /// The seed.
     pub seed: u64,
-    /// How it ended; the fault where the request or the configuration was refused.
+    /// Its ending; the fault where the request or the configuration was refused.
     pub status: String,
-    /// What its certified path costs to drive by the usual weights, metres; of a point its length.
+    /// Cost of driving its certified path by the usual weights, meters; of a point its length.
     pub cost_m: Option<f64>,
-    /// Length of its path, metres.
+    /// Length of its path, meters.
     pub length_m: Option<f64>,
     /// Steps to the first certified path.
     pub first_steps: Option<u64>,
@@ -53,7 +53,7 @@ impl Asked {
         self.obstacles.hash()
     }
 
-    /// Why a configuration cannot even be asked this; none where it can.
+    /// The reason why a configuration cannot be asked this; none where it can.
     pub(super) fn refusal(&self, config: &PlannerConfig) -> Option<String> {
         let request = Request {
             budget_steps: Some(0),

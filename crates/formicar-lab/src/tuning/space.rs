@@ -1,4 +1,4 @@
-//! Which parameters of a planner can be tuned, and in which ranges: the configuration's schema
+//! The parameters of a planner that can be tuned, and their ranges: the configuration's schema
 //! tells.
 
 use super::leaf::{Leaf, leaves};
@@ -18,7 +18,7 @@ pub struct OwnRange {
     pub low: f64,
     /// The greatest.
     pub high: f64,
-    /// Whether equal ratios are equally far.
+    /// True if equal ratios are equally far.
     pub is_log: bool,
 }
 
@@ -286,7 +286,7 @@ mod tests {
             .chain(high.map(|high| high + 1.0))
     }
 
-    /// Whether a document with another value in it is no configuration.
+    /// True if a document with another value in it is no configuration.
     fn is_refused(base: &Value, key: &str, value: f64) -> bool {
         let mut changed = base.clone();
         let place = changed.pointer_mut(&pointer(key)).unwrap();

@@ -1,9 +1,9 @@
-//! Which scenarios are tuned on, and which are held back.
+//! The split into scenarios that are tuned on and scenarios that are held back.
 
 use formicar::numeric::Seed;
 
-/// Which of `n` scenarios are held back: a share of them, drawn by the seed, in ascending order.
-/// Where there are two or more, at least one is held back and at least one is not.
+/// Draws the scenarios of `n` that are held back: a share of them, in ascending order.
+/// With two or more, at least one is held back and at least one is not.
 pub fn split(n: usize, share: f64, seed: Seed) -> Vec<usize> {
     if n < 2 {
         return Vec::new();

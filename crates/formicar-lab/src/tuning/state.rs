@@ -1,4 +1,4 @@
-//! What a tuning has come to, between two cycles.
+//! The state of a tuning between two cycles.
 
 use super::objective::{Objective, Reference};
 use super::space::TuningSpace;
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TuningState {
-    /// What is tuned on what; a state of something else is refused.
+    /// The subject of the tuning; a state of another one is refused.
     pub(super) subject: Subject,
     /// Per scenario what its runs are held against.
     pub(super) references: Vec<Reference>,
@@ -24,7 +24,7 @@ pub struct TuningState {
     pub(super) colony: BeeColony,
 }
 
-/// What is tuned on what.
+/// The subject of a tuning: parameters, objective and scenarios.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Subject {
@@ -54,7 +54,7 @@ impl TuningState {
     /// The state as JSON.
     ///
     /// # Errors
-    /// None that is known: all numbers are finite.
+    /// No failure is known: all numbers are finite.
     pub fn text(&self) -> Result<String> {
         Ok(serde_json::to_string(self)? + "\n")
     }
@@ -64,10 +64,10 @@ impl TuningState {
         &self.colony
     }
 
-    /// Whether this is a later state of what began like `begun`.
+    /// Checks that this is a later state of what began like `begun`.
     ///
     /// # Errors
-    /// What differs.
+    /// The difference.
     pub fn follows(&self, begun: &Self) -> Result<()> {
         let (ours, theirs) = (&self.subject, &begun.subject);
         let differs = [

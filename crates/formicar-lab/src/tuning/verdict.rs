@@ -1,6 +1,6 @@
 //! Default against tuned on scenarios that were held back, as it is.
 
-use super::course;
+use super::convergence;
 use super::evaluate::Tuning;
 use super::objective::Objective;
 use super::runs::{Asked, TunedRun, run_all};
@@ -13,7 +13,7 @@ use formicar::numeric::counted;
 use formicar::planner::PlannerConfig;
 use serde_json::Value;
 
-/// What a tuning came to.
+/// The result of a tuning.
 #[derive(Clone, Debug)]
 pub struct Verdict {
     /// Tables and the picture.
@@ -24,7 +24,7 @@ pub struct Verdict {
     pub runs_csv: String,
     /// Every cycle of the search, as CSV.
     pub cycles_csv: String,
-    /// What was tuned, and nothing else, with the planner's name.
+    /// The tuned parameters, and nothing else, with the planner's name.
     pub document: Value,
     /// The configuration that comes of it.
     pub config: PlannerConfig,
@@ -56,7 +56,7 @@ impl Tuning {
         let check_seeds = self.n_seeds..self.n_seeds + self.n_check_seeds;
         let runs = run_all(&configs, &self.held_back, &check_seeds, self.n_jobs);
         let pairs = self.pairs(&runs);
-        let picture = course::picture(state).to_svg();
+        let picture = convergence::picture(state).to_svg();
         let rows: Vec<&TunedRun> = runs.iter().flatten().flatten().collect();
         let json = |config: &PlannerConfig| serde_json::to_string_pretty(config);
         Ok(Verdict {
@@ -110,7 +110,7 @@ impl Tuning {
         let search = Section {
             heading: "The search".to_owned(),
             blocks: vec![
-                Block::Text(self.course(state)),
+                Block::Text(self.describe_search(state)),
                 Block::Figure(Figure {
                     caption: "The objective on the scenarios tuned on: the least so far, and that \
                               of the middle food source after each cycle."
@@ -158,7 +158,7 @@ impl Tuning {
         format!(
             "An artificial bee colony tuned {} on {} with {} each, and the best that it found was \
              compared with the default on {} held back, with {} each. Costs are those of the usual \
-             weights (`DriveCost::default`), metres; steps are those to the first certified path. \
+             weights (`DriveCost::default`), meters; steps are those to the first certified path. \
              Nothing here depends on time.",
             counted(self.space.space.dimensions().len(), "parameter"),
             counted(self.scenarios.len(), "scenario"),
@@ -183,7 +183,7 @@ impl Tuning {
         table
     }
 
-    fn course(&self, state: &TuningState) -> String {
+    fn describe_search(&self, state: &TuningState) -> String {
         let colony = &state.colony;
         let least = colony.best().map_or(f64::NAN, |best| best.cost);
         let n_scouts = colony.history().iter().filter(|c| c.scouted).count();

@@ -153,13 +153,11 @@ fn contender(entry: &PlannerEntry, text: &Text, folder: &Path) -> Result<Contend
     if let Some(words) = &entry.command {
         return Ok(Contender {
             name: entry.name.get_ref().clone(),
-            planner: entry.planner,
-            config: Table::new(),
             rival: Some(RivalCommand {
                 words: words.clone(),
                 folder: folder.to_owned(),
             }),
-            tuned: Vec::new(),
+            ..Contender::built_in(entry.planner)
         });
     }
     let base = config(entry.config.as_ref(), text, folder)?;
@@ -173,10 +171,9 @@ fn contender(entry: &PlannerEntry, text: &Text, folder: &Path) -> Result<Contend
     }
     Ok(Contender {
         name: entry.name.get_ref().clone(),
-        planner: entry.planner,
         config,
-        rival: None,
         tuned,
+        ..Contender::built_in(entry.planner)
     })
 }
 

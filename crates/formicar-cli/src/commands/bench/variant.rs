@@ -47,9 +47,8 @@ fn tasks(args: &BenchArgs, contenders: &[Contender]) -> Result<Vec<Task>> {
     let mut tasks = Vec::new();
     for word in &args.scenarios {
         let source = TaskSource {
-            word,
             limit: args.limit,
-            resolution_m: None,
+            ..TaskSource::of(word)
         };
         tasks.extend(tasks_of(&source, &planners, &Files)?);
     }
@@ -81,14 +80,12 @@ fn contenders(args: &BenchArgs) -> Result<Vec<Contender>> {
 fn contender(name: &str, planner: PlannerName, sets: &[String]) -> Result<Contender> {
     Ok(Contender {
         name: name.to_owned(),
-        planner,
         config: settings::merge(
             Table::new(),
             "the planner's parameters",
             sets,
             Some(planner),
         )?,
-        rival: None,
-        tuned: Vec::new(),
+        ..Contender::built_in(planner)
     })
 }

@@ -13,12 +13,7 @@ use formicar_lab::tuning::Asked;
 pub(super) fn asked(args: &TuneArgs, words: &[String]) -> Result<Vec<Asked>> {
     let mut all: Vec<Asked> = Vec::new();
     for word in words {
-        let source = TaskSource {
-            word,
-            limit: None,
-            resolution_m: None,
-        };
-        for task in tasks_of(&source, &[args.planner], &Files)? {
+        for task in tasks_of(&TaskSource::of(word), &[args.planner], &Files)? {
             let name = &task.scenario;
             if all.iter().any(|asked| asked.ground.map == *name) {
                 bail!("two scenarios are named {name:?}; hint: each once");

@@ -104,7 +104,7 @@ impl Comparison {
 }
 
 impl Duel {
-    /// Of runs of one planner each.
+    /// Compares runs of one planner each.
     ///
     /// # Errors
     /// Scenarios of one name that are not the same.

@@ -3,7 +3,7 @@
 use super::{Comparison, Duel, Finding, METRICS, SUCCESS};
 use crate::report::{Block, Field, Report, Section, Table};
 
-/// How sides are compared, in words.
+/// The method of comparison, in words.
 pub const METHOD: &str = "Paired by scenario and seed. Medians over the pairs in which both sides \
     return a certified path (of success the share over all pairs); `ratio`, the median of the \
     ratios second over first with its 95 % bootstrap interval; `p`, the probability of Wilcoxon's \

@@ -3,7 +3,7 @@
 use super::*;
 use serde_json::json;
 
-/// What a run of a side comes to.
+/// The values of a run of a side.
 type Values = fn(usize) -> serde_json::Value;
 
 /// Twelve scenarios with two seeds each.
@@ -44,7 +44,7 @@ fn other(i: usize) -> serde_json::Value {
     })
 }
 
-/// Of a program that is not installed.
+/// The values of a program that is not installed.
 fn unavailable(_: usize) -> serde_json::Value {
     json!({"status": "unavailable", "valid": null, "reason": "no OMPL"})
 }

@@ -11,13 +11,13 @@ const SIZES: [([u64; 2], f64, [f64; 3]); 3] = [
     ([2000, 2000], 15.0, [25.0, f64::INFINITY, f64::INFINITY]),
     ([5000, 5000], 100.0, [150.0, f64::INFINITY, f64::INFINITY]),
 ];
-/// What the first path of a new planner may take on 800 x 500 cells, milliseconds.
+/// Limit for the first path of a new planner on 800 x 500 cells, milliseconds.
 const COLD_MS: f64 = 60.0;
-/// What the judge may take for 100 m of path, milliseconds.
+/// Limit for the judge on 100 m of path, milliseconds.
 const JUDGE_MS: f64 = 1.0;
 /// Memory that a process may use, megabytes.
 const PEAK_MB: f64 = 32.0;
-/// Clearance that paths keep where their ends allow it, metres.
+/// Clearance that paths keep where their ends allow it, meters.
 const CLEARANCE_M: f64 = 0.25;
 
 /// A goal, and what came of it.
@@ -52,7 +52,7 @@ pub(super) fn table(goals: &[Goal]) -> Table {
     table
 }
 
-/// What can be said of runs without anybody to compare them with.
+/// Goals that need no peers.
 pub(super) fn own(runs: &Runs) -> Vec<Goal> {
     let mut goals = vec![certified(runs)];
     goals.extend(SIZES.iter().flat_map(|&(size, setup_ms, first_ms)| {

@@ -6,7 +6,7 @@ use super::{Peer, Standing};
 use crate::run::{RunRecord, number};
 use std::collections::BTreeMap;
 
-/// How many times faster than Smac, at the median.
+/// The wanted speed-up over Smac, at the median.
 const SMAC_RATIO: f64 = 20.0;
 /// Length at 0.1 s and at 1 s beside the best valid peer, at the median.
 const LENGTH_RATIOS: [f64; 2] = [1.03, 1.0];
@@ -127,7 +127,7 @@ impl Standing {
     }
 }
 
-/// How many times faster than a peer, by scenario; 0 where there is no path.
+/// The speed-up over a peer, by scenario; 0 where there is no path.
 fn ratios(runs: &Runs, peers: &BTreeMap<&str, &Peer>) -> Vec<f64> {
     let ratio = |scenario: &&str| {
         let ours_s = runs.median_of(scenario, |run| Some(first_s(run)))?;

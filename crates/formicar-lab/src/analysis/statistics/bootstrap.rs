@@ -1,4 +1,4 @@
-//! How certain a median is.
+//! The confidence interval of a median.
 
 use super::quantile;
 use formicar::numeric::Seed;

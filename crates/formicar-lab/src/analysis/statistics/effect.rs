@@ -1,4 +1,4 @@
-//! How much two groups differ.
+//! The size of the difference between two groups.
 
 /// The A of Vargha & Delaney 2000: the probability that a value of `a` is above one of `b`, equal
 /// ones counting half; none where a group is empty.

@@ -1,4 +1,4 @@
-//! How the sum of positive ranks is distributed where every sign is as likely as the other.
+//! The distribution of the sum of positive ranks where both signs are equally likely.
 
 /// The two-sided probability of a sum of positive ranks: twice the smaller of both tails, at most
 /// 1. Ranks are whole or half numbers, as those that equal values share.

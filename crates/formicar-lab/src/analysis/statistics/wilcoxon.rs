@@ -1,4 +1,4 @@
-//! Whether paired values differ.
+//! Wilcoxon's signed-rank test on paired values.
 
 use super::normal::two_sided;
 use super::signed_ranks::two_sided_exact;
@@ -8,7 +8,7 @@ const MAX_EXACT: usize = 50;
 /// The same where some differences are equal in size.
 const MAX_EXACT_TIED: usize = 13;
 
-/// Where the probability of a signed-rank test comes from.
+/// The origin of the probability of a signed-rank test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SignedRanks {
     /// Counted over all signs that the ranks can have.
@@ -17,7 +17,7 @@ pub enum SignedRanks {
     Normal,
 }
 
-/// What the signed-rank test finds in paired differences.
+/// The result of the signed-rank test on paired differences.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wilcoxon {
     /// Differences that are not 0.
@@ -26,7 +26,7 @@ pub struct Wilcoxon {
     pub statistic: f64,
     /// Two-sided probability of a sum as small, if neither side were favored.
     pub p: f64,
-    /// Where it comes from.
+    /// Its origin.
     pub method: SignedRanks,
 }
 

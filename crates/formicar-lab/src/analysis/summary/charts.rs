@@ -111,7 +111,7 @@ pub(super) fn differences(pairs: &[[&Run; 2]]) -> Option<Block> {
     })
 }
 
-/// How the paths of solved runs get better; nothing where no history is known.
+/// Convergence of the paths of solved runs; nothing where no history is known.
 pub(super) fn convergence(runs: &[Run]) -> Option<Section> {
     let figures = [by_time_and_steps(runs), by_iteration(runs)];
     let figures = figures.into_iter().filter(is_drawn);

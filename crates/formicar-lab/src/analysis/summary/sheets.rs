@@ -17,7 +17,7 @@ const ABOUT: &str = "Every parameter of every configuration, as its runs were gi
     `formicar tune`, as its file holds it. A value that is not the preset's is neither stated nor \
     read. Ranges are those of the schema, in the unit that the name of a parameter ends with.";
 
-/// What is said of one parameter.
+/// The line of one parameter.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Line {
     key: String,
@@ -138,7 +138,7 @@ fn preset(planner: &str) -> BTreeMap<String, String> {
     })
 }
 
-/// What is not as the presets have it, in a table or, where there is nothing, in words.
+/// The parameters that differ from their presets, in a table, or a sentence where none do.
 fn differences(sheets: &[Sheet]) -> Option<Block> {
     if sheets.is_empty() {
         return None;
@@ -209,7 +209,7 @@ impl<'a> Sheet<'a> {
         self.lines.insert(place, (line, vec![name]));
     }
 
-    /// Whether something is said in all its configurations.
+    /// True if a line holds for all its configurations.
     fn is_of_all(&self, line: &Line) -> bool {
         let found = self.lines.iter().find(|(other, _)| other == line);
         found.is_some_and(|(_, names)| names.len() == self.names.len())
@@ -238,7 +238,7 @@ impl<'a> Sheet<'a> {
     }
 }
 
-/// How many parameters there are, and how many of each origin.
+/// The number of parameters, and of those of each origin.
 fn sums(lines: &[&Line]) -> String {
     let keys: BTreeSet<&str> = lines.iter().map(|line| line.key.as_str()).collect();
     let sources = [Source::Stated, Source::Read, Source::Chosen, Source::Tuned];

@@ -85,7 +85,7 @@ impl Quaternion {
     }
 }
 
-/// Whether all headings are 0 though the path does not run along the x axis.
+/// True if all headings are 0 though the path does not run along the x axis.
 fn are_unset(headings: &[f64], points: &[Point2]) -> bool {
     let is_along = |pair: &[Point2]| (pair[1].y - pair[0].y).abs() < 1e-9;
     headings.iter().all(|heading| *heading == 0.0) && !points.windows(2).all(is_along)

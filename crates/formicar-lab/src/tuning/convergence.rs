@@ -1,4 +1,4 @@
-//! How the search went, as a picture.
+//! Convergence of the search, as a picture.
 
 use super::TuningState;
 use formicar::geometry::Point2;
