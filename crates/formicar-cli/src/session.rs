@@ -18,7 +18,6 @@ pub(crate) struct Session {
     pub(crate) planner: Planner,
     pub(crate) scene: Scene,
     pub(crate) obstacles: Arc<ObstacleMap>,
-    config: PlannerConfig,
     /// The ants of the last query, if they are kept.
     pub(crate) ants: Option<AntFrames>,
     map_setup_s: f64,
@@ -36,12 +35,11 @@ impl Session {
     /// Prepares a planner; `begun` is when the command began.
     pub(crate) fn new(scene: Scene, config: PlannerConfig, begun: Instant) -> Result<Self> {
         let setup = Instant::now();
-        let planner = Planner::new(&scene.map, scene.vehicle.vehicle.clone(), config.clone())?;
+        let planner = Planner::new(&scene.map, scene.vehicle.vehicle.clone(), config)?;
         Ok(Self {
             obstacles: planner.obstacles().clone(),
             planner,
             scene,
-            config,
             ants: None,
             map_setup_s: setup.elapsed().as_secs_f64(),
             begun,
@@ -94,11 +92,9 @@ impl Session {
     /// The part that all answers of this session share.
     pub(crate) fn context(&self) -> AnswerContext<'_> {
         AnswerContext {
-            obstacles: &self.obstacles,
+            planner: &self.planner,
             map: self.scene.record.clone(),
-            vehicle: &self.scene.vehicle.vehicle,
             vehicle_name: &self.scene.vehicle.name,
-            config: &self.config,
         }
     }
 }

@@ -179,6 +179,7 @@ fn one_line(error: &toml::de::Error) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use formicar::planner::AstarParameters;
 
     fn with(sets: &[&str]) -> Result<PlannerConfig> {
         let sets: Vec<_> = sets.iter().map(|s| (*s).to_owned()).collect();
@@ -189,7 +190,7 @@ mod tests {
     fn a_point_is_planned_for_on_the_grid_unless_told_otherwise() {
         let planner = |choice| {
             let settings = load(None, &[], choice).unwrap();
-            settings.for_motion(Motion::Point).planner
+            settings.for_motion(Motion::Point).planner()
         };
         assert_eq!(planner(None), PlannerName::Astar);
         assert_eq!(planner(Some(PlannerName::Dijkstra)), PlannerName::Dijkstra);
@@ -203,16 +204,21 @@ mod tests {
     fn a_point_gets_the_defaults_of_astar_and_what_was_set() {
         let sets = ["grid_search.diagonal_rule=always".to_owned()];
         let config = load(None, &sets, None).unwrap().for_motion(Motion::Point);
-        let mut expected = PlannerConfig::of(PlannerName::Astar);
+        let mut expected = AstarParameters::default();
         expected.grid_search.diagonal_rule = formicar::map::DiagonalRule::Always;
-        assert_eq!(config, expected);
+        assert_eq!(config, PlannerConfig::Astar(expected));
     }
 
     #[test]
     fn sets_numbers_and_words() {
+        let config = with(&["hybrid_astar.weight=2", "planner=hybrid-astar"]).unwrap();
+        let PlannerConfig::HybridAstar(parameters) = config else {
+            panic!("{config:?}")
+        };
+        assert_eq!(parameters.hybrid_astar.weight, 2.0);
+        // What another planner uses may stand beside it.
         let config = with(&["hybrid_astar.weight=2", "planner=astar"]).unwrap();
-        assert_eq!(config.hybrid_astar.weight, 2.0);
-        assert_eq!(config.planner, PlannerName::Astar);
+        assert_eq!(config, PlannerConfig::of(PlannerName::Astar));
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use formicar::numeric::counted;
 use formicar::planner::Answer;
+use formicar::progress::Status;
 use formicar::vehicle::Vehicle;
 use std::io::{self, Write};
 
@@ -14,7 +15,7 @@ pub(crate) fn write(
 ) -> io::Result<()> {
     let (Some(path), Some(certificate)) = (&answer.path, &answer.certificate) else {
         let reason = answer.reason.as_deref().unwrap_or_default();
-        writeln!(out, "{}  {reason}", answer.status)?;
+        writeln!(out, "{}  {reason}", answer.status.name())?;
         return writeln!(out, "gave up after {}", duration(answer.timing.query_s));
     };
     let length_m = path.poses.last().map_or(0.0, |pose| pose.s);
@@ -23,7 +24,7 @@ pub(crate) fn write(
     writeln!(
         out,
         "{:<9}  {length_m:.2} m  clearance {}{}  {}{}",
-        answer.status,
+        answer.status.name(),
         clearance(certificate.min_clearance_m),
         curvature(certificate.max_curvature_per_m, vehicle),
         counted(n_cusps, "cusp"),
@@ -41,7 +42,7 @@ pub(crate) fn write(
         counted(path.segments.len(), "segment"),
         counted(n_improvements, "time"),
         match answer.cut_by {
-            Some("timed_out") => "stopped by the deadline",
+            Some(Status::TimedOut) => "stopped by the deadline",
             Some(_) => "stopped by the budget",
             None => "done",
         },

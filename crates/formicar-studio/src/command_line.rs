@@ -25,7 +25,7 @@ pub(crate) fn line(answer: &Answer, request: &RequestDocument, map: &str, seed: 
     )];
     words.extend(request_flags(request));
     words.push(format!("--planner {} --seed {seed}", answer.planner));
-    words.push(settings(&provenance.config));
+    words.extend(provenance.config.as_ref().map(settings));
     words.join(" ").trim_end().to_owned()
 }
 
@@ -68,7 +68,7 @@ fn word(flag: &str, value: Option<impl Serialize>) -> Option<String> {
 
 /// The flags that turn the defaults of a planner into a configuration: single keys if possible.
 fn settings(config: &PlannerConfig) -> String {
-    let values = [config, &PlannerConfig::of(config.planner)].map(serde_json::to_value);
+    let values = [config, &PlannerConfig::of(config.planner())].map(serde_json::to_value);
     let [Ok(own), Ok(default)] = values else {
         return String::new();
     };
@@ -119,9 +119,9 @@ mod tests {
     fn only_differences_are_set() {
         let mut config = PlannerConfig::of(PlannerName::Lei2020);
         assert_eq!(settings(&config), "");
-        config.colony.n_ants = 17;
+        config.colony_mut().unwrap().colony.n_ants = 17;
         assert_eq!(settings(&config), "--set colony.n_ants=17");
-        config.colony = PlannerConfig::of(PlannerName::MaxMin).colony;
+        config.colony_mut().unwrap().colony = PlannerName::MaxMin.colony().unwrap();
         assert_eq!(settings(&config), "--config planner.toml");
     }
 

@@ -42,7 +42,7 @@ impl SlotState {
         config: PlannerConfig,
         cache: &PlannerCache,
     ) -> Result<&mut Planner, String> {
-        let fits = |planner: &Planner| *planner.config() == config;
+        let fits = |planner: &Planner| planner.config() == Some(&config);
         let kept = self.planner.take().filter(fits);
         let planner = kept.map_or_else(|| cache.planner(scene, config), Ok);
         Ok(self

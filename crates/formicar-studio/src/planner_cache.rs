@@ -26,7 +26,7 @@ impl Kept {
         Arc::ptr_eq(&self.map, &scene.opened)
             && self.vehicle == scene.vehicle.hash()
             && self.planner.vehicle().motion() == scene.vehicle.motion()
-            && *self.planner.config() == *config
+            && self.planner.config() == Some(config)
     }
 }
 
@@ -57,7 +57,8 @@ impl PlannerCache {
     /// edited.
     pub(crate) fn keep(&self, scene: &Scene, planner: &Planner) {
         let mut kept = self.lock();
-        let is_equal = |kept: &Kept| kept.is_for(scene, planner.config());
+        let config = planner.config();
+        let is_equal = |kept: &Kept| config.is_some_and(|config| kept.is_for(scene, config));
         if scene.is_edited || kept.iter().any(is_equal) {
             return;
         }

@@ -173,13 +173,10 @@ impl Session {
             query_s,
             total_s: setup.elapsed().as_secs_f64(),
         };
-        let config = planner.config();
         let context = AnswerContext {
-            obstacles: &scene.obstacles,
+            planner,
             map: scene.record(),
-            vehicle: &scene.vehicle,
             vehicle_name: &scene.vehicle_name,
-            config,
         };
         let answer = context.answer(request.as_ref(), seed, &result, timing);
         self.studio.planners.keep(scene, planner);
@@ -195,6 +192,7 @@ impl Session {
         let Some(scene) = &self.scene else {
             return;
         };
+        let config = done.answer.provenance.config.as_ref();
         let answer = ServerMessage::Answer {
             plan: done.plan,
             slot: order.slot,
@@ -207,7 +205,7 @@ impl Session {
             },
             tightest: done.tightest(scene),
             cli: command_line::line(&done.answer, &order.request, scene.file(), order.seed),
-            toml: command_line::toml(&done.answer.provenance.config),
+            toml: config.map_or_else(String::new, command_line::toml),
         };
         self.outbox.put(answer.text());
     }

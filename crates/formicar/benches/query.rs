@@ -6,7 +6,7 @@ use divan::{Bencher, black_box};
 use formicar::geometry::Pose2;
 use formicar::map::OccupancyGrid;
 use formicar::numeric::Seed;
-use formicar::planner::{Outcome, Planner, PlannerConfig};
+use formicar::planner::{FormicarParameters, Outcome, Planner, PlannerConfig};
 use formicar::scenario::Request;
 use formicar::vehicle::Vehicle;
 use support::{SIZES, town_map};
@@ -36,10 +36,11 @@ fn warm(map: &OccupancyGrid, config: PlannerConfig) -> Planner {
 
 /// Nothing after the race.
 fn without_improvement() -> PlannerConfig {
-    let mut config = PlannerConfig::default();
-    (config.improve.max_tries, config.improve.polish_passes) = (0, 0);
-    (config.drive.second_steps, config.drive.n_stalled) = (0, 0);
-    config
+    let mut parameters = FormicarParameters::default();
+    let (improve, drive) = (&mut parameters.improve, &mut parameters.drive);
+    (improve.max_tries, improve.polish_passes) = (0, 0);
+    (drive.second_steps, drive.n_stalled) = (0, 0);
+    PlannerConfig::Formicar(parameters)
 }
 
 #[divan::bench(args = SIZES)]

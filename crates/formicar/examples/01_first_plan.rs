@@ -5,6 +5,7 @@
 
 use formicar::map::builtin::BuiltinMap;
 use formicar::objective::DriveCost;
+use formicar::planner::FormicarParameters;
 use formicar::render::Picture;
 use formicar::{PlannerConfig, Scenario, Seed, Vehicle};
 use std::{error::Error, fs, path::Path};
@@ -24,10 +25,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         clearance_wish_m: 0.6,
         ..DriveCost::default()
     };
-    let config = PlannerConfig {
+    let config = PlannerConfig::Formicar(FormicarParameters {
         cost,
-        ..PlannerConfig::default()
-    };
+        ..FormicarParameters::default()
+    });
     // `()` watches nothing and never cancels; the same seed gives the same path.
     let plan = formicar::plan(&scenario, &config, Seed(7), &mut ())?.found()?;
 

@@ -8,7 +8,7 @@ use formicar::layers::SweptMasks;
 use formicar::map::generate::{ScatterParameters, scattered_obstacles};
 use formicar::map::{BitGrid, Cell, DiagonalRule, MoveMasks, OCCUPIED, OccupancyGrid};
 use formicar::numeric::Seed;
-use formicar::planner::{Outcome, Planner, PlannerConfig, PlannerName};
+use formicar::planner::{ChordParameters, Outcome, Planner, PlannerConfig};
 use formicar::progress::{Event, Limits, Observer, Status, Stop};
 use formicar::scenario::{GoalHeading, Request};
 use formicar::vehicle::Vehicle;
@@ -185,8 +185,9 @@ fn alley() -> (OccupancyGrid, Request) {
 fn the_footprint_passes_an_alley_that_a_disc_closes() {
     let (map, request) = alley();
     let plan = |safety: Safety| {
-        let mut config = PlannerConfig::of(PlannerName::Faco2024);
-        config.chords.safety = safety;
+        let mut parameters = ChordParameters::default();
+        parameters.chords.safety = safety;
+        let config = PlannerConfig::Faco2024(parameters);
         let mut planner = Planner::new(&map, Vehicle::lei2020(), config).expect("valid");
         planner.plan(&request, Seed(1), &mut ()).expect("valid")
     };

@@ -5,6 +5,7 @@
     reason = "helpers of tests may fail, say that they skip, and tell what they measured"
 )]
 
+mod answers;
 mod chords;
 mod collision;
 mod colony;

@@ -4,7 +4,7 @@ use formicar::geometry::{Point2, Pose2};
 use formicar::map::{BitGrid, Cell, GridFrame, OccupancyGrid};
 use formicar::numeric::Seed;
 use formicar::path::{CurvePath, CurveSegment, Direction, GridPath, WaypointPath};
-use formicar::planner::{Planner, PlannerConfig, PlannerName, Stages};
+use formicar::planner::{ColonyParameters, Planner, PlannerConfig, Stages};
 use formicar::progress::{AntFrame, AntFrames, Traffic};
 use formicar::render::{
     CellStyle, Chart, ColonyPicture, DrivePicture, Limit, Picture, PlanPicture, ProfilePoint,
@@ -246,8 +246,10 @@ fn colony(n_iterations: u32) -> (OccupancyGrid, Stages, AntFrames) {
         "............",
     ];
     let map = OccupancyGrid::from_rows(&rows, 1.0).expect("a map");
-    let mut config = PlannerConfig::of(PlannerName::Lei2020);
-    (config.colony.n_ants, config.colony.n_iterations) = (30, n_iterations);
+    let mut parameters = ColonyParameters::lei2020();
+    parameters.colony.n_ants = 30;
+    parameters.colony.n_iterations = n_iterations;
+    let config = PlannerConfig::Lei2020(parameters);
     let mut ants = AntFrames::new(12, 6);
     let request = Request::new(Pose2::new(0.5, 3.0, 0.0), Pose2::new(11.5, 3.0, 0.0));
     let point = Vehicle::preset("point").expect("a vehicle");

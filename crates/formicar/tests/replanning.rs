@@ -7,7 +7,9 @@ use formicar::map::{Cell, CellRegion, FREE, OCCUPIED, OccupancyGrid};
 use formicar::metrics::flip;
 use formicar::numeric::Seed;
 use formicar::path::CurvePath;
-use formicar::planner::{Outcome, Plan, PlanError, Planner, PlannerConfig, PlannerName};
+use formicar::planner::{
+    FormicarParameters, Outcome, Plan, PlanError, Planner, PlannerConfig, PlannerName, ReplanConfig,
+};
 use formicar::progress::{Event, Observer, Status};
 use formicar::scenario::{Request, ViaPoint};
 use formicar::validation::judge;
@@ -16,8 +18,18 @@ use formicar::vehicle::Vehicle;
 /// A planner whose improvement ends soon.
 fn quick(planner: PlannerName) -> PlannerConfig {
     let mut config = PlannerConfig::of(planner);
-    config.improve.max_tries = 400;
+    if let Some(parameters) = config.family_mut::<FormicarParameters>() {
+        parameters.improve.max_tries = 400;
+    }
     config
+}
+
+/// The same without any improvement.
+fn unimproved(consistency: f64) -> PlannerConfig {
+    let mut parameters = FormicarParameters::default();
+    parameters.improve.max_tries = 0;
+    parameters.replan.consistency = consistency;
+    PlannerConfig::Formicar(parameters)
 }
 
 fn on(map: &OccupancyGrid, config: PlannerConfig) -> Planner {
@@ -128,11 +140,11 @@ fn on_an_unchanged_map_the_path_stays() {
     let mut map = open_map(160, 90);
     let block = CellRegion::new(Cell::new(70, 30), 20, 40);
     map.replace(&block, &[OCCUPIED; 800]).expect("on the map");
-    let mut config = quick(PlannerName::Formicar);
+    let config = quick(PlannerName::Formicar);
     let request = across(160, 90);
-    let first = plan(&mut on(&map, config.clone()), &request).path;
-    config.improve.max_tries = 0;
-    let mut planner = on(&map, config);
+    let first = plan(&mut on(&map, config), &request).path;
+    let consistency = ReplanConfig::default().consistency;
+    let mut planner = on(&map, unimproved(consistency));
     for share in [0.0, 0.3, 0.8] {
         let driven_m = share * first.length_m();
         let now = from(first.pose_at(driven_m), &request);
@@ -157,10 +169,7 @@ fn a_new_path_must_be_cheaper_by_the_weight() {
     let request = across(160, 120);
     let first = plan(&mut on(&map, quick(PlannerName::Formicar)), &request).path;
     let length_m = |consistency: f64| {
-        let mut config = quick(PlannerName::Formicar);
-        config.replan.consistency = consistency;
-        config.improve.max_tries = 0;
-        let mut planner = on(&map, config);
+        let mut planner = on(&map, unimproved(consistency));
         let gap = CellRegion::new(Cell::new(78, 45), 4, 30);
         planner.update_map(gap, &[FREE; 120]).expect("on the map");
         replan(&mut planner, &request, &first).path.length_m()
@@ -172,10 +181,7 @@ fn a_new_path_must_be_cheaper_by_the_weight() {
 #[test]
 fn a_broken_path_is_bridged() {
     let (mut map, request) = (open_map(160, 90), across(160, 90));
-    let mut config = quick(PlannerName::Formicar);
-    config.replan.consistency = 1.0;
-    config.improve.max_tries = 0;
-    let mut planner = on(&map, config);
+    let mut planner = on(&map, unimproved(1.0));
     let first = plan(&mut planner, &request).path;
     // A block of half a metre is passed by a curve, a wide wall by a search.
     for size in [6, 26] {
@@ -229,9 +235,10 @@ fn only_the_planner_that_drives_and_improves_replans() {
     let error = planner.replan(&request, &CurvePath::default(), Seed(1), &mut ());
     let message = error.expect_err("refused").to_string();
     assert!(message.contains("hybrid-astar does not replan; hint: use formicar"));
-    let mut config = quick(PlannerName::Formicar);
-    config.replan.consistency = 1.5;
-    let error = config.check().expect_err("out of range").to_string();
+    let error = unimproved(1.5)
+        .check()
+        .expect_err("out of range")
+        .to_string();
     assert!(error.starts_with("replan.consistency = 1.5"), "{error}");
 }
 

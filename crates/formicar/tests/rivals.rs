@@ -1,8 +1,9 @@
 //! The planners over cells on generated neighborhoods: how many of their ways cars can drive.
 
+use formicar::evolution::EvolutionConfig;
 use formicar::map::generate::{NeighborhoodParameters, alley_neighborhood, free_pose_pairs};
 use formicar::numeric::Seed;
-use formicar::planner::{Outcome, Planner, PlannerConfig, PlannerName};
+use formicar::planner::{EvolutionParameters, Outcome, Planner, PlannerConfig, PlannerName};
 use formicar::scenario::{GoalHeading, Request, StartHeading};
 use formicar::vehicle::Vehicle;
 
@@ -81,10 +82,12 @@ fn cars_can_drive_ways_of_planners_over_cells() {
 
 #[test]
 fn the_number_of_via_points_limits_what_a_population_can_pass() {
-    let mut config = PlannerConfig::of(PlannerName::Aga);
+    let config = PlannerConfig::of(PlannerName::Aga);
     let free = certified("warehouse_amr", "aga, 1 to 8 points", &config);
-    config.evolution.n_via_min = 3;
-    config.evolution.n_via_max = 3;
+    let mut parameters = EvolutionParameters::of(EvolutionConfig::aga());
+    parameters.evolution.n_via_min = 3;
+    parameters.evolution.n_via_max = 3;
+    let config = PlannerConfig::Aga(parameters);
     let three = certified("warehouse_amr", "aga, 3 points", &config);
     assert!(three.n_ways < free.n_ways);
 }

@@ -8,6 +8,7 @@ use formicar::map::builtin::BuiltinMap;
 use formicar::planner::{PlannerConfig, PlannerName};
 use formicar::scenario::{GoalHeading, Request, StartHeading};
 use formicar::vehicle::Vehicle;
+use std::any::Any;
 use std::path::PathBuf;
 
 /// The number of runs.
@@ -69,14 +70,15 @@ impl Variant {
         }
     }
 
-    /// A planner with something changed.
-    pub(crate) fn changed(
+    /// A planner with something changed in its parameters, which are of type `P`.
+    pub(crate) fn changed<P: Any>(
         planner: PlannerName,
         what: &str,
-        change: impl FnOnce(&mut PlannerConfig),
+        change: impl FnOnce(&mut P),
     ) -> Self {
         let mut config = PlannerConfig::of(planner);
-        change(&mut config);
+        let parameters = config.family_mut();
+        change(parameters.expect("a variant names its planner and parameters together"));
         Self {
             name: format!("{}, {what}", planner.name()),
             config,

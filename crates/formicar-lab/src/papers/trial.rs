@@ -3,10 +3,10 @@
 use crate::papers::experiment::{Ground, Variant};
 use crate::run::{TimedIteration, measure};
 use anyhow::Result;
-use formicar::map::{BitGrid, Cell, MoveMasks};
+use formicar::map::{BitGrid, Cell, DiagonalRule, MoveMasks};
 use formicar::numeric::Seed;
 use formicar::path::GridPath;
-use formicar::planner::{Outcome, Planner, Stages};
+use formicar::planner::{Outcome, Planner, PlannerConfig, Stages};
 use formicar::progress::{History, IterationRecord, Limits};
 use formicar::search::GoalField;
 use serde::Serialize;
@@ -113,7 +113,8 @@ impl Trial {
     pub(crate) fn run(ground: &Ground, variant: &Variant, seed: u64) -> Result<Run> {
         let config = variant.config.clone();
         let mut planner = Planner::new(&ground.grid, ground.vehicle.clone(), config)?;
-        let n_tenth = variant.config.colony.n_iterations.div_ceil(10);
+        let colony = variant.config.colony();
+        let n_tenth = colony.map_or(0, |of| of.colony.n_iterations.div_ceil(10));
         let measured = measure(&mut (), |observer| {
             planner.plan(&ground.request, Seed(seed), observer)
         });
@@ -203,11 +204,17 @@ fn n_squeezes(obstacles: &BitGrid, path: &GridPath) -> usize {
     path.cells.windows(2).filter(squeezes).count()
 }
 
+/// The rule by which the ants of a colony over cells pass corners.
+pub(crate) fn diagonal_rule(config: &PlannerConfig) -> DiagonalRule {
+    let colony = config.colony();
+    colony.map_or_else(DiagonalRule::default, |of| of.colony.diagonal_rule)
+}
+
 /// The shortest way between the ends of a path under the layers and the moves of its colony.
 fn optimum_cells(variant: &Variant, stages: &Stages, path: &GridPath) -> Option<f64> {
     let (start, goal) = (path.cells.first()?, path.cells.last()?);
     let blocked = &stages.layers.as_ref()?.blocked;
-    let moves = MoveMasks::new(blocked, variant.config.colony.diagonal_rule);
+    let moves = MoveMasks::new(blocked, diagonal_rule(&variant.config));
     let mut nobody = ();
     let field = GoalField::new(&moves, &[*goal], &mut Limits::new(&mut nobody, None, None));
     field.ok()?.distance_cells(*start)

@@ -160,11 +160,9 @@ impl OurRun<'_> {
 
     fn write_answer(&self, path: &Path, counted: &Counted) -> Result<()> {
         let context = AnswerContext {
-            obstacles: self.planner.obstacles(),
+            planner: &self.planner,
             map: self.scenario.map_record.clone(),
-            vehicle: self.planner.vehicle(),
             vehicle_name: &self.scenario.vehicle_name,
-            config: self.planner.config(),
         };
         let measured = &counted.answer;
         let timing = Timing {

@@ -192,14 +192,7 @@ mod tests {
     #[test]
     fn failures_without_a_reason_and_beyond_the_budget_are_noticed() {
         let drawn = Drawn::of(1, 100);
-        let failure = NotFound {
-            status: Status::TimedOut,
-            reason: " ".to_owned(),
-            explanation: formicar::planner::Explanation::default(),
-            refused: None,
-            stages: formicar::planner::Stages::default(),
-            n_steps: 101,
-        };
+        let failure = NotFound::new(Status::TimedOut, " ".to_owned(), 101);
         let mut case = Case::begin(&drawn);
         look_at_failure(&mut case, &drawn, &failure);
         assert_eq!(case.violations.len(), 3, "{:?}", case.violations);

@@ -94,7 +94,7 @@ impl Tuning {
                     "{}: {} cannot be asked this: {reason}; hint: leave the scenario out, or take \
                      another --planner",
                     asked.ground.map,
-                    default.planner.name()
+                    default.planner().name()
                 );
             }
         }

@@ -69,6 +69,11 @@ pub enum Falloff {
 impl Parameters for Falloff {}
 
 impl DriveCost {
+    /// Whether these are the defaults.
+    pub(crate) fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+
     /// The length alone: any gear, any bend, any clearance.
     pub fn length_alone() -> Self {
         Self {

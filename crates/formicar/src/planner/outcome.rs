@@ -1,6 +1,6 @@
-//! How a query ended.
+//! The outcome of a query.
 
-use super::{ConfigError, Explanation, PlannerName};
+use super::{ConfigError, Explanation};
 use crate::colony::ColonyRun;
 use crate::evolution::EvolutionRun;
 use crate::layers::Layers;
@@ -46,7 +46,7 @@ impl Outcome {
         }
     }
 
-    /// What was computed before the path that is judged.
+    /// Intermediate results before the path that is judged.
     pub fn stages(&self) -> &Stages {
         match self {
             Self::Found(plan) => &plan.stages,
@@ -62,7 +62,7 @@ impl Outcome {
         }
     }
 
-    /// How the query ended.
+    /// The ending of the query.
     pub fn status(&self) -> Status {
         match self {
             Self::Found(_) => Status::Found,
@@ -73,14 +73,15 @@ impl Outcome {
 
 /// A path with its certificate and everything that was computed on the way.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Plan {
-    /// The planner that found it.
-    pub planner: PlannerName,
+    /// Name of the planner that found it.
+    pub planner: String,
     /// The seed it was given.
     pub seed: Seed,
     /// The path, world coordinates.
     pub path: CurvePath,
-    /// What was computed on the way to it.
+    /// Intermediate results on the way to it.
     pub stages: Stages,
     /// The judge's word.
     pub certificate: Certificate,
@@ -88,16 +89,17 @@ pub struct Plan {
     pub metrics: PathMetrics,
     /// Search steps done.
     pub n_steps: u64,
-    /// What ended the improvement of the path early: the budget or the deadline. Only a deadline
+    /// The limit that ended the improvement of the path early: budget or deadline. Only a deadline
     /// can make two runs differ.
     pub cut_by: Option<Status>,
 }
 
-/// What a planner computed before the path that is judged, for pictures and studies; what a
-/// planner does not compute is missing.
+/// Intermediate results before the path that is judged, for pictures and studies; a planner
+/// leaves out those that it does not compute.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct Stages {
-    /// What was laid over the map.
+    /// Layers over the map.
     pub layers: Option<Layers>,
     /// The run of the colony.
     pub colony: Option<ColonyRun>,
@@ -107,28 +109,43 @@ pub struct Stages {
     pub grid_path: Option<GridPath>,
     /// Those of its cells at which a polyline turns.
     pub nodes: Vec<Cell>,
-    /// How each corner of the polyline became drivable.
+    /// The rounding of each corner of the polyline.
     pub corners: Vec<CornerRecord>,
 }
 
 /// Why there is no path.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct NotFound {
     /// The named ending, never `found`.
     pub status: Status,
-    /// What stood in the way, as a sentence.
+    /// The obstacle to a path, as a sentence.
     pub reason: String,
     /// The same in places and measures.
     pub explanation: Explanation,
     /// The path that the judge refused, with its findings.
     pub refused: Option<(CurvePath, Report)>,
-    /// What was computed before it ended.
+    /// Intermediate results before it ended.
     pub stages: Stages,
     /// Search steps done.
     pub n_steps: u64,
 }
 
-/// What a caller did wrong, or (by [`Outcome::found`]) that there is no path.
+impl NotFound {
+    /// An ending with a reason; the rest is unknown.
+    pub fn new(status: Status, reason: String, n_steps: u64) -> Self {
+        Self {
+            status,
+            reason,
+            explanation: Explanation::default(),
+            refused: None,
+            stages: Stages::default(),
+            n_steps,
+        }
+    }
+}
+
+/// An error of the caller or, by [`Outcome::found`], that there is no path.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PlanError {
@@ -139,19 +156,19 @@ pub enum PlanError {
     #[error(transparent)]
     Config(#[from] ConfigError),
     /// A planner that needs a steered vehicle, and a vehicle that is a point.
-    #[error("{} plans for cars, the vehicle is a point; hint: use astar or dijkstra", planner.name())]
+    #[error("{planner} plans for cars, the vehicle is a point; hint: use astar or dijkstra")]
     NeedsACar {
         /// The planner.
-        planner: PlannerName,
+        planner: String,
     },
     /// New cells that do not fit the map.
     #[error(transparent)]
     Map(#[from] crate::map::MapError),
     /// A planner that cannot start from a previous path.
-    #[error("{} does not replan; hint: use formicar, or plan anew", planner.name())]
+    #[error("{planner} does not replan; hint: use formicar, or plan anew")]
     CannotReplan {
         /// The planner.
-        planner: PlannerName,
+        planner: String,
     },
     /// The vehicle does not suit the search.
     #[error(transparent)]

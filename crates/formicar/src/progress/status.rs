@@ -1,6 +1,7 @@
 //! The named endings of a query.
 
 use crate::scenario::ErrorCode;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The ending of a query.
@@ -12,7 +13,7 @@ use serde::{Deserialize, Serialize};
 /// assert_eq!(Status::BudgetExhausted.name(), "budget_exhausted");
 /// assert_eq!(ErrorCode::from(Status::TimedOut), ErrorCode::Timeout);
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Status {

@@ -56,7 +56,7 @@ impl Answer {
 
     /// The map, and how the query ended.
     pub fn title(&self) -> String {
-        let status = self.status.replace('_', " ");
+        let status = self.status.name().replace('_', " ");
         format!("{}: {status}", self.provenance.map.name)
     }
 }

@@ -1,6 +1,7 @@
 //! Requests that cannot be planned for, and Nav2's codes for outcomes.
 
 use crate::map::Cell;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -127,7 +128,8 @@ impl std::fmt::Display for Endpoint {
 }
 
 /// The outcome codes of Nav2's `ComputePathToPose` action.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
 #[repr(u16)]
 #[non_exhaustive]
 pub enum ErrorCode {

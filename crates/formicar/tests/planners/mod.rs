@@ -2,6 +2,7 @@
 
 mod cells;
 mod driven;
+mod own_search;
 mod parameters;
 mod random_maps;
 

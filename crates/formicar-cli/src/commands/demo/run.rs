@@ -40,7 +40,7 @@ pub(super) fn run(case: &Case) -> Result<Done<'_>> {
     let ground = case.ground()?;
     let config = PlannerConfig::of(case.planner);
     let setup = Instant::now();
-    let mut planner = Planner::new(&ground.map, ground.vehicle.vehicle.clone(), config.clone())?;
+    let mut planner = Planner::new(&ground.map, ground.vehicle.vehicle.clone(), config)?;
     let map_setup_s = setup.elapsed().as_secs_f64();
 
     let request = case.request();
@@ -61,11 +61,9 @@ pub(super) fn run(case: &Case) -> Result<Done<'_>> {
     };
 
     let context = AnswerContext {
-        obstacles: planner.obstacles(),
+        planner: &planner,
         map: ground.record.clone(),
-        vehicle: &ground.vehicle.vehicle,
         vehicle_name: &ground.vehicle.name,
-        config: &config,
     };
     let answer = context.answer(Some(&request), SEED, &result, timing);
     let outcome = result.with_context(|| case.id())?;
@@ -95,7 +93,7 @@ pub(super) fn run(case: &Case) -> Result<Done<'_>> {
 
 /// The status in words.
 pub(super) fn status(answer: &Answer) -> String {
-    answer.status.replace('_', " ")
+    answer.status.name().replace('_', " ")
 }
 
 impl Done<'_> {

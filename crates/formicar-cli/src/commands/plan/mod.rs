@@ -45,9 +45,9 @@ pub(crate) fn run(args: &PlanArgs, out: &mut impl Write) -> Result<Ending, Failu
     let mut scene = scene::load(&args.scene)?;
     let config = settings.for_motion(scene.vehicle.vehicle.motion());
     if targets.ants.is_some() {
-        ants::check(config.planner)?;
+        ants::check(config.planner())?;
     }
-    let soft_costs = soft_costs::load(args, &mut scene, config.planner)?;
+    let soft_costs = soft_costs::load(args, &mut scene, config.planner())?;
     let defaults = request(args, &scene);
     let n_threads = args.threads.map_or(1, |n| n as usize);
     let mut session = Session::new(scene, config, begun)?.with_threads(n_threads);

@@ -26,12 +26,12 @@ pub(super) fn run(
         }
         let answer = match parse(&line) {
             Ok(request) => reply(session, &request, defaults, seed),
-            Err(problem) => Answer {
-                id: id_of(&line),
-                ..session
-                    .context()
-                    .unreadable(format!("line {n_lines}: {problem}"), seed)
-            },
+            Err(problem) => {
+                let reason = format!("line {n_lines}: {problem}");
+                let mut answer = session.context().unreadable(reason, seed);
+                answer.id = id_of(&line);
+                answer
+            }
         };
         serde_json::to_writer(&mut *out, &answer).map_err(std::io::Error::from)?;
         writeln!(out)?;

@@ -304,6 +304,7 @@ impl Line {
 mod tests {
     use super::*;
     use crate::report::{Report, markdown};
+    use formicar::planner::HybridAstarParameters;
 
     fn config(name: &str, planner: PlannerName, change: fn(&mut PlannerConfig)) -> ConfigRecord {
         let mut config = PlannerConfig::of(planner);
@@ -323,7 +324,9 @@ mod tests {
     fn origins_of_the_paper_hold_for_its_values_alone() {
         let configs = [
             config("lei2020", PlannerName::Lei2020, |_| {}),
-            config("few", PlannerName::Lei2020, |c| c.colony.n_ants = 7),
+            config("few", PlannerName::Lei2020, |c| {
+                c.colony_mut().unwrap().colony.n_ants = 7
+            }),
         ];
         let text = text(&configs);
         for line in [
@@ -346,7 +349,8 @@ mod tests {
     #[test]
     fn what_a_tuning_found_is_tuned() {
         let mut tuned = config("t", PlannerName::HybridAstar, |c| {
-            c.hybrid_astar.weight = 3.0;
+            let parameters = c.family_mut::<HybridAstarParameters>();
+            parameters.unwrap().hybrid_astar.weight = 3.0;
         });
         tuned.tuned = vec!["hybrid_astar.weight".to_owned()];
         let text = text(&[tuned, config("h", PlannerName::HybridAstar, |_| {})]);

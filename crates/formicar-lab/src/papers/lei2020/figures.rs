@@ -12,7 +12,7 @@ use formicar::colony::deposit::{AllAnts, Deposit};
 use formicar::colony::evaporation::{Constant, Evaporation, PoissonEvaporation};
 use formicar::colony::initial::{InitialPheromone, LineGradient, PheromoneUnit};
 use formicar::geometry::{Point2, Pose2};
-use formicar::planner::PlannerName;
+use formicar::planner::{ColonyParameters, PlannerName};
 use formicar::render::{
     Axis, CellStyle, Chart, Dash, LineStyle, Picture, PoseMark, Scene, Series, Side, palette,
 };
@@ -87,16 +87,20 @@ pub(super) fn pheromone(grounds: &[Ground]) -> Result<Section> {
 
 fn gradient(ground: &Ground) -> Result<Block> {
     // One ant that leaves next to nothing.
-    let variant = Variant::changed(PlannerName::Lei2020, "one ant", |c| {
-        c.colony.n_ants = 1;
-        c.colony.n_iterations = 1;
-        c.colony.initial = InitialPheromone::LineGradient(LineGradient {
-            unit: PheromoneUnit::Absolute,
-            ..LineGradient::default()
-        });
-        c.colony.evaporation = Evaporation::Constant(Constant { rho: 0.0 });
-        c.colony.deposit = Deposit::AllAnts(AllAnts { q: 1e-6 });
-    });
+    let variant = Variant::changed(
+        PlannerName::Lei2020,
+        "one ant",
+        |c: &mut ColonyParameters| {
+            c.colony.n_ants = 1;
+            c.colony.n_iterations = 1;
+            c.colony.initial = InitialPheromone::LineGradient(LineGradient {
+                unit: PheromoneUnit::Absolute,
+                ..LineGradient::default()
+            });
+            c.colony.evaporation = Evaporation::Constant(Constant { rho: 0.0 });
+            c.colony.deposit = Deposit::AllAnts(AllAnts { q: 1e-6 });
+        },
+    );
     let drawn = DrawnRun::new(ground, &variant)?;
     let mut scene = Scene::new(&ground.grid);
     if let Some(run) = &drawn.outcome.stages().colony {

@@ -5,7 +5,7 @@ use formicar::colony::evaporation::{Constant, Evaporation};
 use formicar::colony::initial::{InitialPheromone, PheromoneUnit, Uniform};
 use formicar::colony::transition::Transition;
 use formicar::layers::UShapes;
-use formicar::planner::{PlannerConfig, PlannerName};
+use formicar::planner::{ColonyParameters, PlannerName};
 use formicar::smoothing::{Corners, RedundantNodes};
 
 /// The colony of the paper, and those of its Table 1.
@@ -20,11 +20,11 @@ pub(super) const FREE_TURNS: &str = "lei2020, turns cost nothing";
 
 /// All variants, of the size that the paper uses on a map.
 pub(super) fn variants(ground: &Ground) -> Vec<Variant> {
-    let improved = |what: &str, change: fn(&mut PlannerConfig)| {
+    let improved = |what: &str, change: fn(&mut ColonyParameters)| {
         Variant::changed(PlannerName::Lei2020, what, change)
     };
     let closed = |planner: PlannerName| {
-        Variant::changed(planner, "U-shapes closed", |c| {
+        Variant::changed(planner, "U-shapes closed", |c: &mut ColonyParameters| {
             c.layers.u_shapes = UShapes::Close;
         })
     };
@@ -62,11 +62,14 @@ pub(super) fn variants(ground: &Ground) -> Vec<Variant> {
     ];
     if ground.map != "lei-map1" {
         for variant in &mut variants {
+            let Some(parameters) = variant.config.colony_mut() else {
+                continue;
+            };
             // Sec. IV.B: the size for maps 2 and 3.
-            variant.config.colony.n_ants = 1000;
-            variant.config.colony.n_iterations = 200;
+            parameters.colony.n_ants = 1000;
+            parameters.colony.n_iterations = 200;
             if variant.name.contains("stretched") {
-                stretch(&mut variant.config, 20.0);
+                stretch(parameters, 20.0);
             }
         }
     }
@@ -74,7 +77,7 @@ pub(super) fn variants(ground: &Ground) -> Vec<Variant> {
 }
 
 /// Stretches the evaporation so that a run is as long as `k_last` units of k.
-fn stretch(config: &mut PlannerConfig, k_last: f64) {
+fn stretch(config: &mut ColonyParameters, k_last: f64) {
     if let Evaporation::Poisson(poisson) = &mut config.colony.evaporation {
         poisson.stretch = f64::from(config.colony.n_iterations) / k_last;
     }

@@ -16,7 +16,7 @@ use formicar::colony::corridor::Corridor;
 use formicar::colony::dead_end::DeadEnd;
 use formicar::colony::evaporation::{Constant, Evaporation, Generational, Recursion};
 use formicar::colony::heuristic::Guidance;
-use formicar::planner::{PlannerConfig, PlannerName};
+use formicar::planner::{AstarParameters, ChordParameters, PlannerName};
 use formicar::smoothing::{Corners, RedundantNodes};
 
 /// The part of the experiment.
@@ -27,7 +27,7 @@ pub(super) const ABLATION: &str = "ablation";
 pub(super) fn variants() -> Vec<Variant> {
     let faco = PlannerName::Faco2024;
     let off = |what: &str, change: fn(&mut ChordConfig)| {
-        Variant::changed(faco, what, |c| change(&mut c.chords))
+        Variant::changed(faco, what, |c: &mut ChordParameters| change(&mut c.chords))
     };
     vec![
         Variant::of(faco),
@@ -68,13 +68,21 @@ pub(super) fn variants() -> Vec<Variant> {
             c.corridor = Corridor::None;
             c.dead_end = DeadEnd::Die;
         }),
-        Variant::changed(faco, "2-turning for wide arcs", |c| {
-            c.smoothing.corners = Corners::TwoTurningOrDubins;
-        }),
-        Variant::changed(PlannerName::Astar, "wide arcs, no ants", |c| {
-            c.smoothing = PlannerConfig::of(PlannerName::Faco2024).smoothing;
-            c.smoothing.redundant_nodes = RedundantNodes::Collinear;
-        }),
+        Variant::changed(
+            faco,
+            "2-turning for wide arcs",
+            |c: &mut ChordParameters| {
+                c.smoothing.corners = Corners::TwoTurningOrDubins;
+            },
+        ),
+        Variant::changed(
+            PlannerName::Astar,
+            "wide arcs, no ants",
+            |c: &mut AstarParameters| {
+                c.smoothing = ChordParameters::default().smoothing;
+                c.smoothing.redundant_nodes = RedundantNodes::Collinear;
+            },
+        ),
     ]
 }
 
@@ -161,14 +169,19 @@ fn paired(drives: &[Drive], variants: &[Variant], key: &str, quantity: &Quantity
 #[cfg(test)]
 mod tests {
     use super::*;
+    use formicar::planner::ColonyParameters;
 
     /// Two variants of ten runs; the second is longer by 1 to 10 m, but has no run of seed 3.
     fn drives() -> (Vec<Drive>, [Variant; 2]) {
         let variants = [
             Variant::of(PlannerName::Lei2020),
-            Variant::changed(PlannerName::Lei2020, "turns cost nothing", |c| {
-                c.colony.cost.turn_weight = 0.0;
-            }),
+            Variant::changed(
+                PlannerName::Lei2020,
+                "turns cost nothing",
+                |c: &mut ColonyParameters| {
+                    c.colony.cost.turn_weight = 0.0;
+                },
+            ),
         ];
         let drive = |variant: usize, seed: u64| Drive {
             part: ABLATION.to_owned(),

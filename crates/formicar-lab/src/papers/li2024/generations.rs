@@ -3,6 +3,7 @@
 use super::drive::{DrawnRun, Job};
 use super::methods::Generations;
 use crate::analysis::statistics::quartiles;
+use crate::papers::trial::diagonal_rule;
 use crate::report::{Trend, TrendPanel, Trends};
 use anyhow::Result;
 use formicar::geometry::Point2;
@@ -54,7 +55,7 @@ pub(super) fn watch(
         (Generations::Ways, Some(blocked)) => Source::Ways {
             job,
             blocked,
-            rule: job.variant.config.colony.diagonal_rule,
+            rule: diagonal_rule(&job.variant.config),
         },
         _ => return Ok(None),
     };

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::report::{Field, Figure, Table};
+use formicar::planner::ColonyParameters;
 use methods::Generations;
 
 fn method(name: &str, native: Native, generations: Generations) -> Method {
@@ -19,9 +20,13 @@ fn plan() -> Plan {
         ..Scale::QUICK
     };
     let lei2020 = |what: &str, n_ants: u32| {
-        Variant::changed("lei2020".parse().unwrap(), what, |c| {
-            c.colony.n_ants = n_ants;
-        })
+        Variant::changed(
+            "lei2020".parse().unwrap(),
+            what,
+            |c: &mut ColonyParameters| {
+                c.colony.n_ants = n_ants;
+            },
+        )
     };
     Plan {
         methods: vec![

@@ -12,7 +12,7 @@ use drive::{Method, Replanning, Step};
 use formicar::map::builtin::BuiltinMap;
 use formicar::map::generate::{NeighborhoodParameters, alley_neighborhood, free_pose_pairs};
 use formicar::numeric::Seed;
-use formicar::planner::PlannerName;
+use formicar::planner::{FormicarParameters, PlannerName};
 use formicar::scenario::Request;
 use formicar::vehicle::Vehicle;
 
@@ -107,12 +107,16 @@ impl Method {
             variant: Variant::changed(
                 PlannerName::Formicar,
                 &format!("replan, consistency {consistency}"),
-                |config| config.replan.consistency = consistency,
+                |config: &mut FormicarParameters| config.replan.consistency = consistency,
             ),
             replanning: Replanning::FromLast,
         };
         let anew = Self {
-            variant: Variant::changed(PlannerName::Formicar, "anew", |_| {}),
+            variant: Variant::changed(
+                PlannerName::Formicar,
+                "anew",
+                |_: &mut FormicarParameters| {},
+            ),
             replanning: Replanning::Anew,
         };
         vec![anew, replan(0.0), replan(0.05), replan(0.2)]

@@ -4,7 +4,7 @@ use crate::papers::experiment::{Ground, Scale, Variant};
 use anyhow::{Context, Result};
 use formicar::map::generate::{ScatterParameters, free_pose_pairs, scattered_obstacles};
 use formicar::numeric::Seed;
-use formicar::planner::PlannerName;
+use formicar::planner::{ChordParameters, ColonyParameters, PlannerName};
 use formicar::scenario::{GoalHeading, Request};
 use formicar::vehicle::{Vehicle, VehicleParameters};
 
@@ -160,9 +160,12 @@ impl Quantity {
 fn variant(planner: PlannerName, n_ants: Option<u32>) -> Variant {
     let mut variant = Variant::of(planner);
     if let Some(n_ants) = n_ants {
-        // A colony over cells heeds the one, a colony over chords the other.
-        variant.config.colony.n_ants = n_ants;
-        variant.config.chords.n_ants = n_ants;
+        if let Some(parameters) = variant.config.family_mut::<ColonyParameters>() {
+            parameters.colony.n_ants = n_ants;
+        }
+        if let Some(parameters) = variant.config.family_mut::<ChordParameters>() {
+            parameters.chords.n_ants = n_ants;
+        }
     }
     variant
 }
@@ -231,8 +234,12 @@ mod tests {
             );
         }
         let ants = Quantity::Ants.points(Scale::QUICK).unwrap();
-        assert_eq!(ants[1].variants[0].config.colony.n_ants, 20);
-        assert_eq!(ants[1].variants[1].config.chords.n_ants, 20);
+        let [colony, chords] = &ants[1].variants[..] else {
+            panic!("two colonies")
+        };
+        assert_eq!(colony.config.colony().unwrap().colony.n_ants, 20);
+        let chords = chords.config.family::<ChordParameters>().unwrap();
+        assert_eq!(chords.chords.n_ants, 20);
         let vehicles = Quantity::VehicleSize.points(Scale::QUICK).unwrap();
         assert!((vehicles[2].x - 3.0).abs() < 1e-9, "{}", vehicles[2].x);
     }

@@ -17,7 +17,7 @@ use anyhow::Result;
 use formicar::colony::heuristic::{Guidance, StepLength, Visibility};
 use formicar::layers::Expansion;
 use formicar::map::DiagonalRule;
-use formicar::planner::{PlannerConfig, PlannerName};
+use formicar::planner::{ColonyParameters, PlannerName};
 
 /// The maps with the figure that each stands for: narrow aisles, none, and the matrix that
 /// circulates.
@@ -70,7 +70,7 @@ pub fn wang2019(setup: &Setup, report_progress: &mut dyn FnMut(&str)) -> Result<
 }
 
 fn variants() -> Vec<Variant> {
-    let changed = |planner: PlannerName, what: &str, change: fn(&mut PlannerConfig)| {
+    let changed = |planner: PlannerName, what: &str, change: fn(&mut ColonyParameters)| {
         Variant::changed(planner, what, change)
     };
     vec![

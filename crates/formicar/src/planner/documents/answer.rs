@@ -1,0 +1,330 @@
+//! The answer document: one definition of what every front end prints about a query.
+
+use super::path_document::PathDocument;
+use super::{Explanation, RequestDocument};
+use crate::metrics::PathMetrics;
+use crate::numeric::Seed;
+use crate::planner::{NotFound, Outcome, Plan, PlanError, Planner, PlannerConfig, Stages};
+use crate::progress::{IterationRecord, Status, Stop};
+use crate::scenario::{ErrorCode, Request};
+use crate::validation::Report;
+use crate::vehicle::{Motion, VehicleParameters};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Name and version of the answer document.
+pub const ANSWER_SCHEMA: &str = "formicar/answer/1";
+
+/// The answer to one request.
+///
+/// Two runs of one request with one seed differ in `timing` alone.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[non_exhaustive]
+pub struct Answer {
+    /// Name and version of this document: `formicar/answer/1`.
+    pub schema: String,
+    /// The request's `id`, where it had one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub id: Option<serde_json::Value>,
+    /// `found`, `no_path`, `infeasible`, `budget_exhausted`, `timed_out`, `cancelled`, or
+    /// `invalid_request`.
+    pub status: AnswerStatus,
+    /// Nav2's name of the outcome.
+    pub code: ErrorCode,
+    /// Nav2's number of the outcome.
+    pub code_number: u16,
+    /// Why there is no path; null where there is one.
+    pub reason: Option<String>,
+    /// The same in places and measures; null where there is a path, or nothing is known.
+    pub explanation: Option<Explanation>,
+    /// `budget_exhausted` or `timed_out` where that ended the improvement of the path found;
+    /// missing where it ceased to gain.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cut_by: Option<Status>,
+    /// The planner asked.
+    pub planner: String,
+    /// The seed it was given.
+    pub seed: u64,
+    /// The judge's findings on the path found or, where the status is `infeasible`, refused.
+    pub certificate: Option<Report>,
+    /// Exact metrics of the path found.
+    pub metrics: Option<PathMetrics>,
+    /// The run of the colony; missing where no colony ran.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub colony: Option<ColonyRecord>,
+    /// Times, seconds.
+    pub timing: Timing,
+    /// The path, only if it is certified.
+    pub path: Option<PathDocument>,
+    /// All that a repetition of the run needs.
+    pub provenance: Provenance,
+}
+
+/// The ending of a request.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum AnswerStatus {
+    /// A certified path.
+    Found,
+    /// The search space holds no path.
+    NoPath,
+    /// The search found a path that the judge refused.
+    Infeasible,
+    /// The step budget ran out first.
+    BudgetExhausted,
+    /// The deadline passed first.
+    TimedOut,
+    /// The caller cancelled.
+    Cancelled,
+    /// A request that could not be asked.
+    InvalidRequest,
+}
+
+impl AnswerStatus {
+    /// The word used in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Found => Status::Found.name(),
+            Self::NoPath => Status::NoPath.name(),
+            Self::Infeasible => Status::Infeasible.name(),
+            Self::BudgetExhausted => Status::BudgetExhausted.name(),
+            Self::TimedOut => Status::TimedOut.name(),
+            Self::Cancelled => Status::Cancelled.name(),
+            Self::InvalidRequest => "invalid_request",
+        }
+    }
+}
+
+impl From<Status> for AnswerStatus {
+    fn from(status: Status) -> Self {
+        match status {
+            Status::Found => Self::Found,
+            Status::NoPath => Self::NoPath,
+            Status::Infeasible => Self::Infeasible,
+            Status::BudgetExhausted => Self::BudgetExhausted,
+            Status::TimedOut => Self::TimedOut,
+            Status::Cancelled => Self::Cancelled,
+        }
+    }
+}
+
+/// The run of a colony.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ColonyRecord {
+    /// Why it stopped.
+    pub stop: Stop,
+    /// Iterations until its best path was found; null if no ant arrived.
+    pub converged_after: Option<u32>,
+    /// Cells of its best path.
+    pub n_cells: usize,
+    /// Nodes of the polyline that is left of them.
+    pub n_nodes: usize,
+    /// All iterations.
+    pub iterations: Vec<IterationRecord>,
+}
+
+impl ColonyRecord {
+    /// The record of a run; none where no colony ran.
+    pub fn new(stages: &Stages) -> Option<Self> {
+        let run = stages.colony.as_ref()?;
+        Some(Self {
+            stop: run.stop,
+            converged_after: run.history.converged_after(),
+            n_cells: run.best.as_ref().map_or(0, |path| path.cells.len()),
+            n_nodes: stages.nodes.len(),
+            iterations: run.history.iterations.clone(),
+        })
+    }
+}
+
+/// Times in seconds; the caller measures them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Timing {
+    /// Preparing the map, once per map and vehicle.
+    pub map_setup_s: f64,
+    /// From the beginning of the query to its first certified path.
+    pub first_feasible_s: Option<f64>,
+    /// The query.
+    pub query_s: f64,
+    /// Everything, from reading the map to the end of the query.
+    pub total_s: f64,
+}
+
+/// All that a repetition of a run needs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[non_exhaustive]
+pub struct Provenance {
+    /// Version of formicar.
+    pub version: String,
+    /// Source and reading of the map.
+    pub map: MapRecord,
+    /// The vehicle.
+    pub vehicle: VehicleRecord,
+    /// The request with all its defaults; null where it could not be read.
+    pub request: Option<RequestDocument>,
+    /// Every parameter of a built-in planner; null of another.
+    pub config: Option<PlannerConfig>,
+}
+
+/// Source and reading of a map.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct MapRecord {
+    /// File or built-in name.
+    pub name: String,
+    /// Columns.
+    pub n_cols: usize,
+    /// Rows.
+    pub n_rows: usize,
+    /// Side of a cell, meters.
+    pub resolution_m: f64,
+    /// World pose of the lower left corner, `[x m, y m, yaw rad]`.
+    pub origin: [f64; 3],
+    /// Reading of unknown cells: `free` or `occupied`.
+    pub unknown: String,
+    /// Areas closed for the vehicle, as corners `[x m, y m]`.
+    pub keep_out: Vec<Vec<[f64; 2]>>,
+    /// Preference for some ground over other; missing without one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub soft_costs: Option<SoftCostsRecord>,
+}
+
+/// Source of soft costs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SoftCostsRecord {
+    /// File, or `map`: the graded cells of the map itself.
+    pub name: String,
+    /// Their weight.
+    pub weight: f64,
+}
+
+/// A vehicle by name and measures.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct VehicleRecord {
+    /// Preset or file.
+    pub name: String,
+    /// `car`, or `point`: holonomic, without measures.
+    pub motion: Motion,
+    /// The measures; of a point, none.
+    pub parameters: VehicleParameters,
+}
+
+/// The standing facts that all answers of one planner share.
+#[derive(Clone, Debug)]
+pub struct AnswerContext<'a> {
+    /// The planner, with its map, vehicle and parameters.
+    pub planner: &'a Planner,
+    /// The map's origin; size, resolution and pose are filled in from the planner.
+    pub map: MapRecord,
+    /// The vehicle's preset or file name.
+    pub vehicle_name: &'a str,
+}
+
+impl AnswerContext<'_> {
+    /// The answer to a request that was planned or refused; `None` where it is incomplete.
+    pub fn answer(
+        &self,
+        request: Option<&Request>,
+        seed: Seed,
+        result: &Result<Outcome, PlanError>,
+        timing: Timing,
+    ) -> Answer {
+        let blank = Answer {
+            timing,
+            ..self.blank(request.map(RequestDocument::from), seed)
+        };
+        match result {
+            Ok(Outcome::Found(plan)) => self.found(plan, blank),
+            Ok(Outcome::NotFound(failure)) => not_found(failure, blank),
+            Err(error) => Answer {
+                reason: Some(error.to_string()),
+                explanation: error.explanation(),
+                code: error.code(),
+                code_number: error.code().number(),
+                ..blank
+            },
+        }
+    }
+
+    /// The answer to a request that cannot be read.
+    pub fn unreadable(&self, reason: String, seed: Seed) -> Answer {
+        Answer {
+            reason: Some(reason),
+            ..self.blank(None, seed)
+        }
+    }
+
+    fn found(&self, plan: &Plan, blank: Answer) -> Answer {
+        let (obstacles, vehicle) = (self.planner.obstacles(), self.planner.vehicle());
+        Answer {
+            status: AnswerStatus::Found,
+            code: ErrorCode::None,
+            code_number: ErrorCode::None.number(),
+            certificate: Some((*plan.certificate).clone()),
+            metrics: Some(plan.metrics.clone()),
+            cut_by: plan.cut_by,
+            colony: ColonyRecord::new(&plan.stages),
+            path: Some(PathDocument::new(&plan.path, obstacles, vehicle)),
+            ..blank
+        }
+    }
+
+    /// The answer to a request that cannot be asked, for no reason yet.
+    fn blank(&self, request: Option<RequestDocument>, seed: Seed) -> Answer {
+        Answer {
+            schema: ANSWER_SCHEMA.to_owned(),
+            id: None,
+            status: AnswerStatus::InvalidRequest,
+            code: ErrorCode::Unknown,
+            code_number: ErrorCode::Unknown.number(),
+            reason: None,
+            explanation: None,
+            cut_by: None,
+            planner: self.planner.name().to_owned(),
+            seed: seed.0,
+            certificate: None,
+            metrics: None,
+            colony: None,
+            timing: Timing::default(),
+            path: None,
+            provenance: self.provenance(request),
+        }
+    }
+
+    fn provenance(&self, request: Option<RequestDocument>) -> Provenance {
+        let frame = self.planner.obstacles().frame();
+        let origin = frame.origin();
+        let vehicle = self.planner.vehicle();
+        Provenance {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            map: MapRecord {
+                n_cols: frame.n_cols(),
+                n_rows: frame.n_rows(),
+                resolution_m: frame.resolution_m(),
+                origin: [origin.x, origin.y, origin.heading],
+                ..self.map.clone()
+            },
+            vehicle: VehicleRecord {
+                name: self.vehicle_name.to_owned(),
+                motion: vehicle.motion(),
+                parameters: vehicle.parameters().clone(),
+            },
+            request,
+            config: self.planner.config().cloned(),
+        }
+    }
+}
+
+fn not_found(failure: &NotFound, blank: Answer) -> Answer {
+    let code = ErrorCode::from(failure.status);
+    Answer {
+        status: failure.status.into(),
+        code,
+        code_number: code.number(),
+        reason: Some(failure.reason.clone()),
+        explanation: Some(failure.explanation.clone()),
+        certificate: failure.refused.as_ref().map(|(_, report)| report.clone()),
+        colony: ColonyRecord::new(&failure.stages),
+        ..blank
+    }
+}

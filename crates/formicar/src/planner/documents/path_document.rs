@@ -1,0 +1,171 @@
+//! A path in files: sampled poses for followers, exact segments for the judge.
+
+use crate::collision::{Body, ObstacleMap};
+use crate::geometry::{Pose2, wrap_angle};
+use crate::path::{CurvePath, CurveSegment, Direction, SpeedLimits, SpeedProfile, TimedPose};
+use crate::vehicle::Vehicle;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::fmt::Write;
+
+/// Greatest distance between two poses of a written path, meters.
+pub const POSE_SPACING_M: f64 = 0.1;
+
+/// A path, world coordinates.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PathDocument {
+    /// Poses at most 0.1 m apart, with both ends of every segment.
+    pub poses: Vec<PoseRecord>,
+    /// The path itself, exactly.
+    pub segments: Vec<SegmentRecord>,
+}
+
+/// A sampled pose of the rear-axle center.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PoseRecord {
+    /// Meters.
+    pub x: f64,
+    /// Meters.
+    pub y: f64,
+    /// Radians, counter-clockwise from the x axis, in (-pi, pi].
+    pub heading: f64,
+    /// Arc length driven so far, meters.
+    pub s: f64,
+    /// Gear in which the pose is reached: 1 forward, -1 in reverse.
+    #[schemars(with = "i8")]
+    pub direction: Direction,
+    /// tan(steer) / wheelbase where the pose is reached, 1/m, positive left.
+    pub curvature: f64,
+    /// Steering angle of the virtual middle wheel, radians; null where the wheelbase is unknown.
+    pub steer: Option<f64>,
+    /// Distance from the footprint to the nearest obstacle or map border, meters.
+    pub clearance: f64,
+    /// Speed when the pose is reached, meters per second; where the vehicle says how fast it drives.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub speed: Option<f64>,
+    /// Time when the pose is reached, seconds; where the vehicle says how fast it drives.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time: Option<f64>,
+}
+
+/// A line, an arc or a clothoid; along it the heading changes by
+/// `direction * (curvature * length + curvature_rate * length^2 / 2)`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SegmentRecord {
+    /// Start of the segment, meters.
+    pub x: f64,
+    /// Start of the segment, meters.
+    pub y: f64,
+    /// Heading at the start of the segment, radians.
+    pub heading: f64,
+    /// tan(steer) / wheelbase at the start of the segment, 1/m, positive left.
+    pub curvature: f64,
+    /// Change of the curvature per driven meter, 1/m^2; left out on lines and arcs, where it is 0.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub curvature_rate: f64,
+    /// Driven length, meters.
+    pub length: f64,
+    /// Gear: 1 forward, -1 in reverse.
+    #[schemars(with = "i8")]
+    pub direction: Direction,
+}
+
+#[allow(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde hands over a reference"
+)]
+fn is_zero(number: &f64) -> bool {
+    *number == 0.0
+}
+
+impl PathDocument {
+    /// A path in world coordinates, measured against a map with a vehicle.
+    pub fn new(path: &CurvePath, obstacles: &ObstacleMap, vehicle: &Vehicle) -> Self {
+        let body = Body::new(vehicle);
+        let timed = timed(path, vehicle);
+        let poses = path
+            .sample(POSE_SPACING_M)
+            .into_iter()
+            .enumerate()
+            .map(|(i, at)| PoseRecord {
+                x: at.pose.x,
+                y: at.pose.y,
+                heading: wrap_angle(at.pose.heading),
+                s: at.s_m,
+                direction: at.direction,
+                curvature: at.curvature_per_m,
+                steer: vehicle.steer_rad(at.curvature_per_m),
+                clearance: obstacles.clearance_m(&body, obstacles.frame().to_grid(at.pose)),
+                speed: timed.get(i).map(|timed| timed.speed_mps),
+                time: timed.get(i).map(|timed| timed.time_s),
+            });
+        Self {
+            poses: poses.collect(),
+            segments: path.segments().iter().map(SegmentRecord::from).collect(),
+        }
+    }
+
+    /// The path behind the document: from its segments, or standing still at its only pose.
+    pub fn curve_path(&self) -> Option<CurvePath> {
+        let segments: Vec<_> = self.segments.iter().map(CurveSegment::from).collect();
+        let standing = self.poses.first().map(|p| Pose2::new(p.x, p.y, p.heading));
+        let start = segments.first().map(|s| s.start).or(standing)?;
+        Some(CurvePath::from_segments(start, segments))
+    }
+
+    /// The poses as CSV, with a header; an unknown steering angle is left empty. Speed and time have
+    /// columns where they are known.
+    pub fn poses_csv(&self) -> String {
+        let mut text = String::from("x,y,heading,s,direction,curvature,steer,clearance");
+        let is_timed = self.poses.first().is_some_and(|p| p.time.is_some());
+        text.push_str(if is_timed { ",speed,time\n" } else { "\n" });
+        for p in &self.poses {
+            let steer = p.steer.map_or(String::new(), |steer| steer.to_string());
+            let direction = i8::from(p.direction);
+            let timing = match (p.speed, p.time) {
+                (Some(speed), Some(time)) => format!(",{speed},{time}"),
+                _ => String::new(),
+            };
+            // Writing to a string does not fail.
+            let _ = writeln!(
+                text,
+                "{},{},{},{},{direction},{},{steer},{}{timing}",
+                p.x, p.y, p.heading, p.s, p.curvature, p.clearance
+            );
+        }
+        text
+    }
+}
+
+/// Speed and time at each pose; none where the vehicle does not say how fast it drives.
+fn timed(path: &CurvePath, vehicle: &Vehicle) -> Vec<TimedPose> {
+    SpeedLimits::of(vehicle).map_or_else(Vec::new, |limits| {
+        SpeedProfile::new(path, vehicle, &limits, POSE_SPACING_M).poses
+    })
+}
+
+impl From<&CurveSegment> for SegmentRecord {
+    fn from(segment: &CurveSegment) -> Self {
+        Self {
+            x: segment.start.x,
+            y: segment.start.y,
+            heading: segment.start.heading,
+            curvature: segment.curvature_per_m,
+            curvature_rate: segment.curvature_rate_per_m2,
+            length: segment.length_m,
+            direction: segment.direction,
+        }
+    }
+}
+
+impl From<&SegmentRecord> for CurveSegment {
+    fn from(record: &SegmentRecord) -> Self {
+        Self {
+            start: Pose2::new(record.x, record.y, record.heading),
+            curvature_per_m: record.curvature,
+            curvature_rate_per_m2: record.curvature_rate,
+            length_m: record.length,
+            direction: record.direction,
+        }
+    }
+}

@@ -1,0 +1,225 @@
+//! The improvement of the first path, and of others that hybrid A* and ants still find.
+
+use super::query::Query;
+use super::race::{FirstPath, RaceStage, Rules};
+use crate::colony::drive::DriveColony;
+use crate::geometry::{Arc, Point2};
+use crate::numeric::Seed;
+use crate::progress::{Limits, Status};
+use crate::search::{Driven, Side, hybrid_astar};
+use crate::smoothing::{ImproveConfig, ImproveProblem, Improver};
+
+/// Another path is improved where it is at most so many times as long as the best one.
+const WORTH_RATIO: f64 = 1.3;
+/// Tries that the path of an ant is given at first,
+const QUICK_TRIES: u64 = 300;
+/// and how much dearer than the best path it may then be to be improved further.
+const PROMISING_RATIO: f64 = 1.03;
+/// A best path that costs at least so many times the way along the goal field, which knows no
+/// turns, may not be the best way around: ants look for others,
+const GOOD_RATIO: f64 = 1.25;
+/// and hybrid A* has so many times its steps.
+const MORE_STEPS: u64 = 4;
+
+/// Paths that are announced to the observer while they improve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Announce {
+    /// Those that the judge certifies.
+    Certified,
+    /// No path: another one stands.
+    Nothing,
+}
+
+/// An improved path.
+pub(super) struct Improvement {
+    pub(super) path: Driven,
+    pub(super) cost_m: f64,
+    /// The limit that ended the improvement before it ceased to gain.
+    pub(super) ended: Option<Status>,
+}
+
+impl Query<'_> {
+    /// Improves the first path, and others that hybrid A* and ants still find.
+    pub(super) fn improve(
+        &self,
+        first: FirstPath,
+        announce: Announce,
+        limits: &mut Limits,
+    ) -> Improvement {
+        let soft = self.task.soft_costs();
+        let price = |position: Point2| soft.map_or(0.0, |costs| costs.price_at(position));
+        let ground = self.problem.map();
+        let task = ImproveProblem {
+            obstacles: self.task.obstacles(),
+            body: ground.body(),
+            radius_m: ground.radius_m(),
+            gears: self.problem.gears(),
+            cost: &self.parameters.cost,
+            soft: soft.is_some().then_some(&price),
+        };
+        let thorough = &self.parameters.improve;
+        let quick = ImproveConfig {
+            max_tries: thorough.max_tries.min(QUICK_TRIES),
+            ..thorough.clone()
+        };
+        let mut best = Best {
+            query: self,
+            announce,
+            improver: Improver::new(&task, thorough),
+            quick_improver: Improver::new(&task, &quick),
+            path: first.path.clone(),
+            cost_m: f64::INFINITY,
+            seed: self.task.seed(),
+            n_tried: 0,
+        };
+        best.announce(&best.path, limits);
+        let ended = best.run(first, limits).err();
+        Improvement {
+            path: best.path,
+            cost_m: best.cost_m,
+            ended,
+        }
+    }
+}
+
+/// The best path so far, and what makes paths better.
+struct Best<'a> {
+    query: &'a Query<'a>,
+    announce: Announce,
+    improver: Improver<'a>,
+    /// One that tells soon whether a path is worth more.
+    quick_improver: Improver<'a>,
+    path: Driven,
+    cost_m: f64,
+    seed: Seed,
+    n_tried: u64,
+}
+
+impl Best<'_> {
+    fn run(&mut self, first: FirstPath, limits: &mut Limits) -> Result<(), Status> {
+        let rules = self.query.rules();
+        self.offer(first.path, limits)?;
+        self.heed_soft_costs(&rules, limits)?;
+        let Some(RaceStage {
+            problem,
+            mut guide,
+            hybrid,
+        }) = first.stage
+        else {
+            return Ok(());
+        };
+        let start = problem.starts().first().map(|pose| pose.position());
+        let least_m = start.and_then(|start| guide.estimate_m(&problem, start));
+        let is_good = |cost_m: f64| least_m.is_some_and(|least_m| cost_m < GOOD_RATIO * least_m);
+        if let Some(mut hybrid) = hybrid {
+            let doubts = if is_good(self.cost_m) { 1 } else { MORE_STEPS };
+            match hybrid.run(&mut guide, doubts * rules.config.second_steps, limits) {
+                Ok(Some(path)) => self.offer(path, limits)?,
+                Ok(None) | Err(Status::NoPath) => {}
+                Err(status) => return Err(status),
+            }
+        }
+        let sends_none = rules.config.n_stalled == 0 || rules.config.n_ants == 0;
+        if is_good(self.cost_m) || sends_none || problem.side() == Side::Goal {
+            return Ok(());
+        }
+        let ants = (rules.seed, rules.n_threads);
+        let (ended, _) = DriveColony::with(&problem, rules.config, ants, guide, |colony| {
+            self.send_ants(colony, rules.config.n_stalled, limits)
+        });
+        ended
+    }
+
+    /// With soft costs, offers a path that hybrid A* finds by them: local search alone would not
+    /// find the way around unwanted ground.
+    fn heed_soft_costs(&mut self, rules: &Rules, limits: &mut Limits) -> Result<(), Status> {
+        let Some(costs) = self.query.task.soft_costs() else {
+            return Ok(());
+        };
+        let problem = self.query.problem.clone().with_soft_costs(Some(costs));
+        let n_steps = MORE_STEPS * rules.config.second_steps;
+        match limits.within(n_steps, |limits| hybrid_astar(&problem, limits)) {
+            Ok(path) => self.offer(path, limits),
+            Err(status @ (Status::TimedOut | Status::Cancelled)) => Err(status),
+            Err(_) => Ok(()),
+        }
+    }
+
+    /// Sends focused ants until so many generations gained nothing.
+    fn send_ants(
+        &mut self,
+        colony: &mut DriveColony,
+        n_stalled: u32,
+        limits: &mut Limits,
+    ) -> Result<(), Status> {
+        let mut n_idle = 0;
+        while n_idle < n_stalled {
+            let before_m = self.cost_m;
+            let (start, arcs) = self.path.clone();
+            for way in colony.focus((start, &arcs), self.seed, limits)? {
+                self.try_quickly((start, way), limits)?;
+            }
+            let stall_gain = self.query.parameters.improve.stall_gain;
+            n_idle = if self.cost_m < before_m * (1.0 - stall_gain) {
+                0
+            } else {
+                n_idle + 1
+            };
+        }
+        Ok(())
+    }
+
+    /// Improves a path, and keeps it where it is the cheapest.
+    fn offer(&mut self, (start, arcs): Driven, limits: &mut Limits) -> Result<(), Status> {
+        let length_m = |arcs: &[Arc]| arcs.iter().map(|arc| arc.length_m()).sum::<f64>();
+        let is_long = length_m(&arcs) > WORTH_RATIO * length_m(&self.path.1);
+        if self.cost_m.is_finite() && is_long && self.query.task.soft_costs().is_none() {
+            return Ok(());
+        }
+        let seed = self.next_seed();
+        let is_first = self.cost_m.is_infinite();
+        let (query, is_told) = (self.query, is_first && self.announce == Announce::Certified);
+        let mut tell = |arcs: &[Arc], limits: &mut Limits| {
+            if is_told {
+                query.announce_if_certified(start, arcs, limits);
+            }
+        };
+        let improved = self
+            .improver
+            .improve((start, &arcs), seed, limits, &mut tell);
+        if improved.cost_m < self.cost_m {
+            self.cost_m = improved.cost_m;
+            self.path = (start, improved.arcs);
+            if !is_first {
+                self.announce(&self.path, limits);
+            }
+        }
+        improved.ended.map_or(Ok(()), Err)
+    }
+
+    /// Improves the path of an ant a little, and then as any path where it comes near the best.
+    fn try_quickly(&mut self, (start, arcs): Driven, limits: &mut Limits) -> Result<(), Status> {
+        let seed = self.next_seed();
+        let tried = self
+            .quick_improver
+            .improve((start, &arcs), seed, limits, &mut |_, _| {});
+        match tried.ended {
+            Some(status) => Err(status),
+            None if tried.cost_m < PROMISING_RATIO * self.cost_m => {
+                self.offer((start, tried.arcs), limits)
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn next_seed(&mut self) -> Seed {
+        self.n_tried += 1;
+        Seed(self.seed.stream([self.n_tried, 1]).next_u64())
+    }
+
+    fn announce(&self, (start, arcs): &Driven, limits: &mut Limits) {
+        if self.announce == Announce::Certified {
+            self.query.announce_if_certified(*start, arcs, limits);
+        }
+    }
+}

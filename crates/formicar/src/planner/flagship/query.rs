@@ -1,0 +1,99 @@
+//! One query of `formicar`: what its steps share.
+
+use super::config::FormicarParameters;
+use super::improve::{Announce, Improvement};
+use super::race::{FirstPath, Rules};
+use crate::geometry::{Arc, Pose2};
+use crate::path::CurvePath;
+use crate::planner::{Ended, Found, Task};
+use crate::progress::{Limits, Status};
+use crate::search::{DriveProblem, Driven};
+use crate::validation::judge;
+
+/// A request with the parameters and the prepared problem.
+pub(super) struct Query<'a> {
+    pub(super) task: &'a Task<'a>,
+    pub(super) parameters: &'a FormicarParameters,
+    pub(super) problem: &'a DriveProblem<'a>,
+}
+
+impl Query<'_> {
+    /// The rules of a race for this query.
+    pub(super) fn rules(&self) -> Rules<'_> {
+        Rules {
+            config: &self.parameters.drive,
+            seed: self.task.seed(),
+            n_threads: self.task.n_threads(),
+        }
+    }
+
+    /// An improved path as found; a cancel leaves none.
+    pub(super) fn found(&self, improved: &Improvement) -> Result<Found, Ended> {
+        if improved.ended == Some(Status::Cancelled) {
+            return Err(Status::Cancelled.into());
+        }
+        let mut found = self.task.driven(improved.path.0, &improved.path.1);
+        found.cut_by = improved.ended;
+        Ok(found)
+    }
+
+    /// Announces a path to the observer where the judge certifies it.
+    pub(super) fn announce_if_certified(&self, start: Pose2, arcs: &[Arc], limits: &mut Limits) {
+        let path = self.task.driven(start, arcs).path;
+        if self.certifies(&path) {
+            limits.tell_improved(&path);
+        }
+    }
+
+    /// The path, announced to the observer, where the judge certifies it.
+    pub(super) fn announced(&self, path: Option<Driven>, limits: &mut Limits) -> Option<Driven> {
+        let driven = path?;
+        let path = self.task.driven(driven.0, &driven.1).path;
+        if !self.certifies(&path) {
+            return None;
+        }
+        limits.tell_improved(&path);
+        Some(driven)
+    }
+
+    /// True where the judge certifies a path.
+    pub(super) fn certifies(&self, path: &CurvePath) -> bool {
+        let (obstacles, vehicle) = (self.task.obstacles(), self.task.vehicle());
+        let report = judge(obstacles, vehicle, self.task.request(), path);
+        report.certify().is_ok()
+    }
+
+    /// Improves a mended path and one planned anew, and takes the better one, the mended one with
+    /// an advantage. The observer knows of the mended one, so that it alone is announced while it
+    /// improves.
+    pub(super) fn better_of(
+        &self,
+        mended: Option<Driven>,
+        anew: Result<FirstPath, Status>,
+        limits: &mut Limits,
+    ) -> Result<Found, Ended> {
+        let Some(path) = mended else {
+            let improved = self.improve(anew?, Announce::Certified, limits);
+            return self.found(&improved);
+        };
+        let mended = FirstPath { path, stage: None };
+        let old = self.improve(mended, Announce::Certified, limits);
+        let mut found = self.found(&old)?;
+        let anew = match anew {
+            Ok(anew) => anew,
+            Err(status) => {
+                let is_cut = status == Status::TimedOut || !limits.has_steps_left();
+                found.cut_by = found.cut_by.or(is_cut.then_some(status));
+                return Ok(found);
+            }
+        };
+        let new = self.improve(anew, Announce::Nothing, limits);
+        let cut_by = old.ended.or(new.ended);
+        if self.parameters.replan.prefers_new(old.cost_m, new.cost_m) {
+            found = self.found(&new)?;
+        } else if new.ended == Some(Status::Cancelled) {
+            return Err(Status::Cancelled.into());
+        }
+        Ok(Found { cut_by, ..found })
+    }
+}
