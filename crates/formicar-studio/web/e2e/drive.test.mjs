@@ -29,7 +29,7 @@ studio.scene("the vehicle drives to the goal, its wheels steer, and charts know 
 
   await panel.getByRole("button", { name: "Open loop" }).click();
   await until(page, "the other law drives", () => window.formicar.store.state.slots.a.driven?.law === "open-loop");
-  await panel.getByText("nobody looks where the vehicle is").waitFor();
+  await panel.getByText("without feedback").waitFor();
   await panel.getByRole("button", { name: "Stop", exact: true }).click();
   await until(page, "it has stopped", () => window.formicar.store.state.driveS === null);
 });
