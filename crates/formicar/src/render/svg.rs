@@ -67,7 +67,9 @@ impl Svg {
             .text("stroke-linejoin", "round");
         let root = match self.letters {
             Letters::Strokes => root,
-            Letters::Font => root.text("font-family", "system-ui, sans-serif"),
+            Letters::Font => root
+                .text("font-family", "system-ui, sans-serif")
+                .text("role", "img"),
         };
         let mut page = Self::default();
         page.words(&Element::new("title"), title);

@@ -11,6 +11,8 @@ const ROW_PX: f64 = 27.0;
 const HALF_BOX_PX: f64 = 8.0;
 const HALF_CAP_PX: f64 = 4.0;
 const BOX_FILL: Color = Color::rgb(0xdb, 0xe8, 0xf6);
+/// Fonts of readers are up to so much wider than our letters.
+const FONT_ROOM: f64 = 1.15;
 const NAMES: Lettering = Lettering::new(12.5, palette::INK);
 const NO_VALUE: Lettering = Lettering::new(12.5, palette::MUTED);
 
@@ -35,7 +37,7 @@ pub(super) fn height_px(n_rows: usize) -> f64 {
 /// Width of the names of rows.
 pub(super) fn names_px(rows: &[BoxRow]) -> f64 {
     let widths = rows.iter().map(|row| NAMES.width_px(&row.name));
-    widths.fold(30.0, f64::max) + 14.0
+    FONT_ROOM * widths.fold(30.0, f64::max) + 14.0
 }
 
 impl Plot<'_> {
