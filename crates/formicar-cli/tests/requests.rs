@@ -173,7 +173,10 @@ fn bad_flags_are_refused_with_value_and_hint() {
         &["1000000", "0 to 1000"],
     );
     let other = ["--soft-costs", "map", "--planner", "astar"];
-    refused(&other, &["astar does not use soft costs", "--planner formicar"]);
+    refused(
+        &other,
+        &["astar does not use soft costs", "--planner formicar"],
+    );
 }
 
 #[test]

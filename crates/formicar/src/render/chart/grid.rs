@@ -90,8 +90,8 @@ impl ChartGrid {
 
 #[cfg(test)]
 mod tests {
-    use crate::render::chart::{Dots, SERIES_LOOKS, Series};
     use super::*;
+    use crate::render::chart::{Dots, SERIES_LOOKS, Series};
     use crate::render::{BoxRow, DotFill};
 
     fn chart() -> Chart {

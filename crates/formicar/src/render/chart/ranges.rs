@@ -102,9 +102,9 @@ fn span(values: impl Iterator<Item = f64>, scale: AxisScale) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    use crate::render::chart::{Limit, Series};
     use super::*;
     use crate::geometry::Point2;
+    use crate::render::chart::{Limit, Series};
     use crate::render::palette;
 
     fn ends(scale: Scale) -> (f64, f64) {
