@@ -1,8 +1,8 @@
 //! Tables that the lab reads back: results, peers, the state of a tuning.
 #![no_main]
 
-use formicar_lab::campaign::read_csv;
-use formicar_lab::standing::Peer;
+use formicar_lab::run::read_csv;
+use formicar_lab::analysis::standing::Peer;
 use formicar_lab::tuning::TuningState;
 use libfuzzer_sys::fuzz_target;
 
