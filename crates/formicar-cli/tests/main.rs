@@ -7,6 +7,7 @@ mod bench;
 mod campaign;
 mod check;
 mod common;
+mod console_examples;
 mod demo;
 mod map;
 mod plan;
