@@ -41,15 +41,15 @@ pub fn judge(
 /// ```
 /// use formicar::collision::ObstacleMap;
 /// use formicar::path::Direction::Forward;
-/// use formicar::validation::judge_path;
+/// use formicar::validation::{ViolationKind, judge_path};
 /// use formicar::{CurvePath, OccupancyGrid, Pose2, Vehicle};
 ///
 /// let map = OccupancyGrid::from_rows(&["..........", "..........", "....#.....", ".........."], 1.0)?;
 /// let mut path = CurvePath::new(Pose2::new(2.0, 1.5, 0.0));
 /// path.push(0.0, 5.0, Forward);
-/// let report = judge_path(&ObstacleMap::new(&map), &Vehicle::warehouse_amr(), &path);
-/// assert!(!report.valid && report.min_clearance_m == 0.0);
-/// assert!(report.violations[0].message.contains("occupied"));
+/// let report = judge_path(&ObstacleMap::new(&map), &Vehicle::warehouse_amr(), &path, 0.0);
+/// assert!(!report.valid);
+/// assert_eq!(report.violations[0].kind, ViolationKind::Collision);
 /// # Ok::<(), formicar::MapError>(())
 /// ```
 pub fn judge_path(
