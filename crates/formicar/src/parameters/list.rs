@@ -20,7 +20,7 @@ pub struct Parameter {
     pub range: Option<Range>,
     /// The words that it may be, if it is a word.
     pub words: Vec<String>,
-    /// Its default; null if there is none.
+    /// Its default, of a parameter of a rule the rule's own; null if there is none.
     pub default: Value,
     /// The slots that it depends on, each with the key of the rule's name and the rule.
     pub rules: Vec<(String, String)>,
@@ -116,19 +116,14 @@ impl Place {
         }
     }
 
-    /// The same place where a slot holds a rule.
+    /// The same place where a slot holds a rule, whose parameters have defaults of their own.
     fn under(&self, tag: &str, rule: &str) -> Self {
-        let slot = self.field(tag, &Value::Null);
-        let is_default = slot.default == rule;
+        let slot = self.field(tag, &Value::Null).key;
         let mut rules = self.rules.clone();
-        rules.push((slot.key, rule.to_owned()));
+        rules.push((slot, rule.to_owned()));
         Self {
             key: self.key.clone(),
-            default: if is_default {
-                self.default.clone()
-            } else {
-                Value::Null
-            },
+            default: Value::Null,
             rules,
         }
     }
