@@ -2,7 +2,7 @@
 
 use super::plan::{Campaign, PlannedRun};
 use super::store::Store;
-use crate::run::{Job, Origin, Program, Run, pool};
+use crate::run::{Job, Origin, Program, Run, RunStatus, pool};
 use anyhow::{Result, bail};
 
 /// Takes the runs of a campaign as they end.
@@ -159,12 +159,13 @@ pub fn run_in_turns(
         for turn in 0..2 {
             let who = (place + turn) % 2;
             let run = programs[who].run(&planned.job)?;
-            if run.record.reason.contains("the run:") {
+            let record = &run.record;
+            if record.status == RunStatus::Crashed && record.reason.contains("the run:") {
                 bail!(
                     "{}: it does not understand a run as this build describes it ({}); hint: a \
                      build that is not so old",
                     programs[who].path().display(),
-                    run.record.reason
+                    record.reason
                 );
             }
             let origin = measured_by[who].origin(planned);

@@ -34,10 +34,12 @@ impl Folder {
         made.with_context(|| format!("{} cannot be made", folder.display()))?;
         let [table, settings_file, store] =
             ["results.csv", "settings.json", "results.sqlite"].map(|name| folder.join(name));
-        let before = if !store.exists() && table.exists() {
-            take_over(&table, &settings_file, settings)?
-        } else {
-            Vec::new()
+        let before = || {
+            if table.exists() {
+                take_over(&table, &settings_file, settings)
+            } else {
+                Ok(Vec::new())
+            }
         };
         let mut store = Store::open_growing(&store, campaign, settings, before)?;
         for (i, run) in campaign.runs.iter().enumerate() {

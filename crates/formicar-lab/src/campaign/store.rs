@@ -35,7 +35,8 @@ impl Store {
         let mut store = Self::connect(path)?;
         let name = || path.display().to_string();
         if store.is_empty().map_err(no_store).with_context(name)? {
-            store.create(campaign, version).with_context(name)?;
+            let made = store.create(campaign, version, None, Vec::new());
+            made.with_context(name)?;
         } else {
             check_schema(&store.connection).with_context(name)?;
             store.check(campaign, version).with_context(name)?;
@@ -45,13 +46,12 @@ impl Store {
     }
 
     /// Opens a store that takes any runs under the same settings: one from before, or a new one
-    /// that begins with records of which no more is known. Runs are told apart by scenario, planner
-    /// and seed.
+    /// that begins with the records of `before`. Runs are told apart by scenario, planner and seed.
     pub(super) fn open_growing(
         path: &Path,
         campaign: &Campaign,
         settings: &serde_json::Value,
-        before: Vec<RunRecord>,
+        before: impl FnOnce() -> Result<Vec<RunRecord>>,
     ) -> Result<Self> {
         let mut store = Self::connect(path)?;
         let name = || path.display().to_string();
@@ -60,11 +60,9 @@ impl Store {
                 runs: Vec::new(),
                 ..campaign.clone()
             };
-            store
-                .create(&blank, env!("CARGO_PKG_VERSION"))
-                .with_context(name)?;
-            store.set_fact("settings", &settings.to_string())?;
-            store.import(before).with_context(name)?;
+            let version = env!("CARGO_PKG_VERSION");
+            let made = store.create(&blank, version, Some(settings), before()?);
+            made.with_context(name)?;
         } else {
             check_schema(&store.connection).with_context(name)?;
             check_settings(&store.settings()?, settings, path)?;
@@ -111,21 +109,6 @@ impl Store {
         let sql = "DELETE FROM run WHERE place = ?";
         self.connection.execute(sql, [self.places[index]])?;
         Ok(())
-    }
-
-    /// Takes over records without a job.
-    fn import(&mut self, records: Vec<RunRecord>) -> Result<()> {
-        let transaction = self.connection.transaction()?;
-        for record in records {
-            let sql = "INSERT INTO planned (run, job) VALUES (NULL, NULL)";
-            transaction.execute(sql, [])?;
-            let run = Run {
-                record,
-                ..Run::default()
-            };
-            insert(&transaction, transaction.last_insert_rowid(), &run)?;
-        }
-        Ok(transaction.commit()?)
     }
 
     /// Notes how many runs are done at once where some are missing, since that influences their
@@ -177,7 +160,14 @@ impl Store {
         Ok(serde_json::from_str(&fact(&self.connection, "settings")?)?)
     }
 
-    fn create(&mut self, campaign: &Campaign, version: &str) -> Result<()> {
+    /// Makes the tables, in one transaction with everything that they begin with.
+    fn create(
+        &mut self,
+        campaign: &Campaign,
+        version: &str,
+        settings: Option<&serde_json::Value>,
+        before: Vec<RunRecord>,
+    ) -> Result<()> {
         let transaction = self.connection.transaction()?;
         transaction.execute_batch(&tables())?;
         let facts = [
@@ -196,6 +186,18 @@ impl Store {
         }
         for (place, run) in campaign.runs.iter().enumerate() {
             plan(&transaction, place as i64, run)?;
+        }
+        if let Some(settings) = settings {
+            let fact = ("settings", settings.to_string());
+            transaction.execute("INSERT INTO fact VALUES (?, ?)", fact)?;
+        }
+        for record in before {
+            let run = Run {
+                record,
+                ..Run::default()
+            };
+            transaction.execute("INSERT INTO planned (run, job) VALUES (NULL, NULL)", [])?;
+            insert(&transaction, transaction.last_insert_rowid(), &run)?;
         }
         Ok(transaction.commit()?)
     }

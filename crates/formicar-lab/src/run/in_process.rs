@@ -5,8 +5,9 @@ use super::ours::{Begun, run_planner};
 use super::record::Run;
 use super::scenario::{LoadedScenario, Sources};
 use anyhow::{Result, anyhow};
-use formicar::planner::{PlanError, Planner};
+use formicar::planner::{PathSearch, PlanError, Planner};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Makes a planner for a scenario.
 type Make<'a> = Box<dyn Fn(&LoadedScenario) -> Result<Planner, PlanError> + Sync + 'a>;
@@ -37,6 +38,16 @@ impl<'a> InProcess<'a> {
     ) -> Self {
         self.planners.insert(name.to_owned(), Box::new(make));
         self
+    }
+
+    /// Adds a search of the caller under its own name.
+    #[must_use]
+    pub fn with_search(self, search: Arc<dyn PathSearch>) -> Self {
+        let name = search.name().to_owned();
+        self.with_planner(&name, move |scenario| {
+            let vehicle = scenario.vehicle.clone();
+            Ok(Planner::with_search(&scenario.map, vehicle, search.clone()))
+        })
     }
 
     /// Carries out one run.

@@ -65,10 +65,11 @@ pub(super) fn run_planner(
 ) -> Result<Run> {
     let setup = Instant::now();
     let planner = make(&scenario)?;
+    let map_setup_s = setup.elapsed().as_secs_f64();
     let run = OurRun {
         job,
         request: scenario.request(job)?,
-        map_setup_s: setup.elapsed().as_secs_f64(),
+        map_setup_s,
         planner,
         scenario,
         begun,

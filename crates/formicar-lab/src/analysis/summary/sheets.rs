@@ -325,7 +325,7 @@ mod tests {
         let configs = [
             config("lei2020", PlannerName::Lei2020, |_| {}),
             config("few", PlannerName::Lei2020, |c| {
-                c.colony_mut().unwrap().colony.n_ants = 7
+                c.colony_mut().unwrap().colony.n_ants = 7;
             }),
         ];
         let text = text(&configs);
