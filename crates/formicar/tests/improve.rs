@@ -340,5 +340,5 @@ fn bad_parameters_are_refused() {
         ..ImproveConfig::default()
     };
     let message = bad.check().unwrap_err().to_string();
-    assert!(message.contains("improve.stall_gain = -1"), "{message}");
+    assert!(message.contains("stall_gain = -1"), "{message}");
 }

@@ -210,7 +210,9 @@ mod tests {
         assert_eq!(low["maximum"], 1.0);
         assert_eq!(low["default"], 0.25);
         assert_eq!(low["description"], "The least share.");
-        let count = &schema["$defs"]["Count"]["properties"]["move"];
+        let rules = schema["$defs"]["Slot"]["oneOf"].as_array().unwrap();
+        let counts = |rule: &&serde_json::Value| rule["properties"].get("move").is_some();
+        let count = &rules.iter().find(counts).unwrap()["properties"]["move"];
         assert_eq!(
             (&count["minimum"], &count["maximum"]),
             (&1.into(), &9.into())

@@ -163,7 +163,11 @@ impl JsonSchema for PlannerConfig {
     /// The sections of all planners side by side: a document may hold any of them.
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let mut properties = Map::new();
-        for schema in Self::section_schemas(generator) {
+        let mut schemas = Self::section_schemas(generator);
+        // Defaults of a section that several planners have: those of the default planner, else of
+        // the last ones, which are colonies.
+        schemas[1..].reverse();
+        for schema in schemas {
             let sections = schema.get("properties").and_then(Value::as_object);
             for (name, section) in sections.into_iter().flatten() {
                 properties.entry(name.clone()).or_insert(section.clone());

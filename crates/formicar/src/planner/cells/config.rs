@@ -33,7 +33,8 @@ sections! {
 sections! {
     /// Parameters of `dijkstra`.
     DijkstraParameters {
-        /// Steps of the search.
+        /// Steps of the planners over cells: `astar`, `dijkstra`, `improved-astar`, and `ga`
+        /// and `aga`, which measure themselves by the shortest path over cells.
         grid_search: GridSearchConfig,
         /// Smoothing: from a path over cells to one that a car can drive.
         smoothing: SmoothingConfig,
@@ -47,7 +48,8 @@ sections! {
     /// Parameters of `improved-astar`.
     #[derive(Default)]
     ImprovedAstarParameters {
-        /// Steps of the search.
+        /// Steps of the planners over cells: `astar`, `dijkstra`, `improved-astar`, and `ga`
+        /// and `aga`, which measure themselves by the shortest path over cells.
         grid_search: GridSearchConfig,
         /// Parameters of `improved-astar`.
         improved_astar: ImprovedAstarConfig,

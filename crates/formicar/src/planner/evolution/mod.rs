@@ -17,7 +17,8 @@ use crate::smoothing::SmoothingConfig;
 sections! {
     /// Parameters of `ga` and `aga`.
     EvolutionParameters {
-        /// Steps of the shortest path by which polylines are measured.
+        /// Steps of the planners over cells: `astar`, `dijkstra`, `improved-astar`, and `ga`
+        /// and `aga`, which measure themselves by the shortest path over cells.
         grid_search: GridSearchConfig,
         /// The population.
         evolution: EvolutionConfig,
