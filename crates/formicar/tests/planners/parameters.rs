@@ -45,6 +45,10 @@ fn bad_parameters_are_refused_with_their_range() {
             |c| c.improve.n_checked = 0,
         ],
     );
+}
+
+#[test]
+fn bad_parameters_of_colonies_and_planners_over_cells_are_refused() {
     refused(
         PlannerName::AntSystem,
         &[
@@ -60,6 +64,10 @@ fn bad_parameters_are_refused_with_their_range() {
             |c| c.smoothing.bend_weight = f64::NAN,
         ],
     );
+}
+
+#[test]
+fn bad_parameters_of_ants_that_steer_are_refused() {
     refused(
         PlannerName::Faco2024,
         &[
@@ -74,6 +82,10 @@ fn bad_parameters_are_refused_with_their_range() {
             |c| c.chords.initial.factor = f64::INFINITY,
         ],
     );
+}
+
+#[test]
+fn bad_parameters_of_populations_are_refused() {
     refused(
         PlannerName::ImprovedAstar,
         &[|c: &mut ImprovedAstarParameters| c.improved_astar.distance_weight = -0.1],
@@ -95,6 +107,10 @@ fn bad_parameters_are_refused_with_their_range() {
             |c| c.evolution.initial = seeded(1.5),
         ],
     );
+}
+
+#[test]
+fn bad_parameters_of_hybrid_astar_are_refused() {
     refused(
         PlannerName::HybridAstar,
         &[
