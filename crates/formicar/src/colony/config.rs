@@ -13,8 +13,6 @@ use super::transition::Transition;
 use crate::map::DiagonalRule;
 use crate::objective::PathCost;
 use crate::parameters::{OutOfRange, Parameters, parameters};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 parameters! {
     /// A colony: its size, where its ants may go, and a rule for each slot.
@@ -64,8 +62,10 @@ parameters! {
 }
 
 /// The behavior of an ant beside the goal.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum AdjacentGoal {
     /// It goes there.
     #[default]
@@ -77,8 +77,10 @@ pub enum AdjacentGoal {
 impl Parameters for AdjacentGoal {}
 
 /// The layout of pheromone.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum TrailLayout {
     /// Cells.
     #[default]

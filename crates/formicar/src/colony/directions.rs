@@ -1,12 +1,12 @@
 //! The steps that an ant may take.
 
 use crate::parameters::Parameters;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// Steps that an ant may take.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Directions {
     /// Straight steps.
     Four,

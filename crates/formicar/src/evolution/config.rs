@@ -56,7 +56,7 @@ parameters! {
 
 rules! {
     /// The first population.
-    #[serde(deny_unknown_fields)]
+    #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
     pub enum InitialPopulation {
         /// Via points at random, all cells that can be reached alike.
         Random,

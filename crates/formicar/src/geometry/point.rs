@@ -1,6 +1,5 @@
 //! A point or vector in the plane.
 
-use serde::{Deserialize, Serialize};
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// A point, or the vector to it; metres unless a caller says cells.
@@ -12,7 +11,8 @@ use std::ops::{Add, Mul, Neg, Sub};
 /// assert_eq!((a.norm(), a.dot(b), a.cross(b)), (5.0, 0.0, 25.0));
 /// assert_eq!(a.perpendicular(), b);
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Point2 {
     /// Coordinate along the first axis.
     pub x: f64,

@@ -1,7 +1,6 @@
 //! Convex polygons: the shape of vehicles.
 
 use super::{Point2, Pose2};
-use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// A list of points that is no convex polygon.
@@ -50,8 +49,9 @@ pub enum PolygonError {
 /// assert!(body.contains(Point2::new(2.9, 0.4)));
 /// assert_eq!(body.grown(0.25).bounds().1, Point2::new(3.25, 0.75));
 /// ```
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(transparent)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(transparent))]
 pub struct ConvexPolygon {
     corners: Vec<Point2>,
 }

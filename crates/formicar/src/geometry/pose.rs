@@ -1,8 +1,6 @@
 //! A position with a heading, and exact motion along arcs.
 
 use super::{Point2, wrap_angle};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// A position in metres and a heading in radians, counter-clockwise from the x axis.
 ///
@@ -18,7 +16,9 @@ use serde::{Deserialize, Serialize};
 /// let there = Pose2::new(1.0, 0.0, 0.0).relative(end);
 /// assert!((there.x - 0.0).abs() < 1e-12 && (there.y - 4.0).abs() < 1e-12);
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Pose2 {
     /// Position along the x axis, metres.
     pub x: f64,

@@ -1,8 +1,6 @@
 //! Parameters of the layers.
 
 use crate::parameters::{OutOfRange, Parameters, Range, parameters};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// The most cells that [`Expansion::Cells`] may ask for.
 pub const MAX_EXPANSION_CELLS: u32 = 64;
@@ -23,8 +21,10 @@ parameters! {
 }
 
 /// The growth of obstacles in cells.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum Expansion {
     /// By none.
     #[default]
@@ -32,7 +32,7 @@ pub enum Expansion {
     /// By half the vehicle's width, rounded up to whole cells (Lei 2020, sec. II.B).
     HalfWidth,
     /// By a number of cells, 0 to [`MAX_EXPANSION_CELLS`].
-    Cells(#[schemars(range(min = 0, max = MAX_EXPANSION_CELLS))] u32),
+    Cells(#[cfg_attr(feature = "schema", schemars(range(min = 0, max = MAX_EXPANSION_CELLS)))] u32),
 }
 
 impl Parameters for Expansion {
@@ -58,8 +58,10 @@ impl Expansion {
 }
 
 /// The treatment of areas that an obstacle encloses on three sides.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum UShapes {
     /// They stay open.
     #[default]

@@ -1,11 +1,8 @@
 //! A place in a grid.
 
-use serde::{Deserialize, Serialize};
-
 /// A cell by column (along x) and row (along y); row 0 is the lowest, as in ROS.
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cell {
     /// Column, counted along x from 0.
     pub col: u32,

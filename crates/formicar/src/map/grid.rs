@@ -7,11 +7,11 @@ use super::frame::GridFrame;
 use super::region::CellRegion;
 use super::values::{FREE, OCCUPIED, UNKNOWN, check_values, lethal};
 use crate::geometry::{Point2, Pose2};
-use serde::{Deserialize, Serialize};
 
 /// The meaning of unknown cells.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum UnknownPolicy {
     /// As free ground.
     Free,

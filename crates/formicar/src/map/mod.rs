@@ -7,6 +7,7 @@ mod components;
 mod costmap;
 mod distance;
 mod error;
+#[cfg(feature = "formats")]
 pub mod format;
 mod frame;
 pub mod generate;

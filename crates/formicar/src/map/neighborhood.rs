@@ -2,7 +2,6 @@
 
 use super::Cell;
 use crate::parameters::Parameters;
-use serde::{Deserialize, Serialize};
 
 /// The eight steps to a neighbor as (columns, rows), counter-clockwise from east.
 ///
@@ -19,10 +18,10 @@ pub const STEPS: [(i32, i32); 8] = [
 ];
 
 /// When a diagonal step between two free cells is allowed, by the two cells beside its corner.
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, schemars::JsonSchema,
-)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum DiagonalRule {
     /// Always, even between two obstacles.
     Always,
@@ -59,8 +58,9 @@ impl DiagonalRule {
 }
 
 /// Which cells count as neighbors.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Connectivity {
     /// Cells with a common edge.
     Four,

@@ -8,13 +8,13 @@ use crate::geometry::{Point2, Pose2, dubins, reeds_shepp};
 use crate::map::{BitGrid, Cell};
 use crate::path::{CurvePath, Direction};
 use crate::vehicle::{Motion, Vehicle};
-use serde::{Deserialize, Serialize};
 
 /// Metrics by the definitions of other tools, for comparison only.
 ///
 /// All are taken over 500 poses at equal steps of arc length, as Bench-MR does; another number of
 /// poses gives other values.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct CompatibleMetrics {
     /// Bench-MR: sum of absolute changes of slope per length, rad/m; a cusp adds about pi.

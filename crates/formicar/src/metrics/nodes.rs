@@ -3,10 +3,10 @@
 use crate::geometry::Point2;
 use crate::map::Cell;
 use crate::path::{GridPath, WaypointPath};
-use serde::{Deserialize, Serialize};
 
 /// The nodes of a path, and those at which it changes direction.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct NodeMetrics {
     /// Nodes, both ends included.

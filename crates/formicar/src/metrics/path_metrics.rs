@@ -5,11 +5,11 @@ use crate::collision::{Body, Drive, ObstacleMap};
 use crate::geometry::{Pose2, angle_difference};
 use crate::path::{CurvePath, CurveSegment, SpeedLimits, SpeedProfile};
 use crate::vehicle::Vehicle;
-use serde::{Deserialize, Serialize};
 
 /// Distance from the footprint to the nearest occupied cell square or the map border, along a
 /// whole path.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClearanceSummary {
     /// The least, metres, as the judge found it.
     pub min_m: f64,
@@ -73,7 +73,9 @@ impl ClearanceSummary {
 /// let metrics = PathMetrics::new(&path, &Vehicle::sedan(), path.end(), clearance);
 /// assert_eq!((metrics.length_m, metrics.reverse_length_m, metrics.n_cusps), (7.0, 2.0, 1));
 /// ```
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct PathMetrics {
     /// Driven length, metres.
@@ -103,7 +105,7 @@ pub struct PathMetrics {
     pub max_steer_rad: Option<f64>,
     /// Time of the fastest drive within the vehicle's speed, the default accelerations of
     /// [`SpeedLimits`] and the steering rate, seconds; where the vehicle says how fast it drives.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub travel_time_s: Option<f64>,
     /// Turning from step to step, at [`SteeringShare::DEFAULT_SPACING_M`].
     pub steering_share: SteeringShare,

@@ -3,10 +3,11 @@
 use super::resample::resampled;
 use crate::geometry::angle_difference;
 use crate::path::CurvePath;
-use serde::{Deserialize, Serialize};
 
 /// Shares of steps by how much the heading changes over them (Li 2024, Table 2).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct SteeringShare {
     /// By at most 5 degrees.

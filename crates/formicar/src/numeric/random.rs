@@ -1,7 +1,5 @@
 //! Counter-based random numbers: a draw is a hash of its place, so that threads cannot reorder it.
 
-use serde::{Deserialize, Serialize};
-
 /// The one source of randomness of a run: same seed, same result.
 ///
 /// ```
@@ -11,7 +9,8 @@ use serde::{Deserialize, Serialize};
 /// assert_eq!(draw([0, 1]), draw([0, 1]));
 /// assert_ne!(draw([0, 1]), draw([0, 2]));
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Seed(pub u64);
 
 impl Seed {

@@ -32,15 +32,16 @@ macro_rules! parameters {
         }
     ) => {
         #[derive(Clone, Debug, PartialEq)]
-        #[derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
-        #[serde(default, deny_unknown_fields)]
-        #[schemars(transform = Self::describe)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+        #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+        #[cfg_attr(feature = "schema", schemars(transform = Self::describe))]
         $(#[$meta])*
         pub struct $name {
             $(
                 $(#[doc $doc $text])*
                 $(#[cfg_attr(doc, doc = concat!("\n\nRange: `", stringify!($range), "`."))])?
-                $(#[serde $serde])?
+                $(#[cfg_attr(feature = "serde", serde $serde)])?
                 pub $field: $type,
             )*
         }
@@ -59,6 +60,7 @@ macro_rules! parameters {
             }
 
             /// Adds ranges and units to the JSON schema.
+            #[cfg(feature = "schema")]
             fn describe(schema: &mut schemars::Schema) {
                 $($(
                     let range = $crate::parameters::Range::of::<$type>($range);
@@ -106,8 +108,9 @@ macro_rules! rules {
         }
     ) => {
         #[derive(Clone, Debug, PartialEq)]
-        #[derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
-        #[serde(tag = "rule", rename_all = "kebab-case")]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+        #[cfg_attr(feature = "serde", serde(tag = "rule", rename_all = "kebab-case"))]
         $(#[$meta])*
         pub enum $name {
             $($(#[$about])* $rule $(($parameters))?,)*

@@ -1,11 +1,11 @@
 //! A drivable curve: lines, arcs and clothoids, each driven forward or in reverse.
 
 use crate::geometry::{Arc, Point2, Pose2};
-use serde::{Deserialize, Serialize};
 
 /// The gear.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(into = "i8", try_from = "i8")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(into = "i8", try_from = "i8"))]
 pub enum Direction {
     /// The vehicle moves along its heading; +1 in files.
     #[default]

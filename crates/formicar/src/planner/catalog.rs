@@ -8,17 +8,16 @@ use super::{
 use super::{ConfigError, PathSearch};
 use crate::colony::{ColonyConfig, presets};
 use crate::evolution::EvolutionConfig;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value};
 use std::any::Any;
 
 /// Declares the planners: variant, parameters, word in files, preset, and what it does in a line.
 macro_rules! planners {
     ($($(#[$about:meta])* $variant:ident($parameters:ty): $word:literal, $preset:expr, $line:literal;)+) => {
         /// The planners.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-        #[serde(rename_all = "kebab-case")]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+        #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
         pub enum PlannerName {
             $($(#[$about])* $variant,)+
         }
@@ -31,8 +30,9 @@ macro_rules! planners {
             clippy::large_enum_variant,
             reason = "one is made per planner, and its parameters are changed in place"
         )]
-        #[derive(Clone, Debug, PartialEq, Serialize)]
-        #[serde(tag = "planner", rename_all = "kebab-case")]
+        #[derive(Clone, Debug, PartialEq)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+        #[cfg_attr(feature = "serde", serde(tag = "planner", rename_all = "kebab-case"))]
         #[non_exhaustive]
         pub enum PlannerConfig {
             $($(#[$about])* $variant($parameters),)+
@@ -85,21 +85,26 @@ macro_rules! planners {
             }
 
             /// Names of the sections of its document.
+            #[cfg(feature = "serde")]
             pub(super) fn section_names(&self) -> &'static [&'static str] {
                 match self { $(Self::$variant(_) => <$parameters as Sections>::NAMES),+ }
             }
 
             /// Takes those sections out of a document that the planner uses.
+            #[cfg(feature = "serde")]
             pub(super) fn laid<E: serde::de::Error>(
                 self,
-                given: &mut Map<String, Value>,
+                given: &mut serde_json::Map<String, serde_json::Value>,
             ) -> Result<Self, E> {
                 Ok(match self { $(Self::$variant(own) => Self::$variant(own.laid(given)?)),+ })
             }
 
             /// The schema of each planner's sections.
-            pub(super) fn section_schemas(generator: &mut SchemaGenerator) -> Vec<Schema> {
-                vec![$(<$parameters as JsonSchema>::json_schema(generator)),+]
+            #[cfg(feature = "schema")]
+            pub(super) fn section_schemas(
+                generator: &mut schemars::SchemaGenerator,
+            ) -> Vec<schemars::Schema> {
+                vec![$(<$parameters as schemars::JsonSchema>::json_schema(generator)),+]
             }
         }
     };

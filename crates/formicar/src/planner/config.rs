@@ -3,19 +3,11 @@
 use super::catalog::{PlannerConfig, PlannerName};
 use super::{Abilities, ColonyParameters, Found, Halt, Hints, PathSearch, Task};
 use crate::objective::DriveCost;
-use crate::parameters::{self, OutOfRange, Parameter};
+use crate::parameters::OutOfRange;
 use crate::path::CurvePath;
 use crate::progress::Limits;
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::Error as _;
-use serde::{Deserialize, Deserializer};
-use serde_json::{Map, Value};
 use std::any::Any;
-use std::borrow::Cow;
 use thiserror::Error;
-
-/// The key of the planner's name.
-const PLANNER: &str = "planner";
 
 /// An error in a configuration.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -41,11 +33,6 @@ impl Default for PlannerConfig {
 }
 
 impl PlannerConfig {
-    /// Every parameter that a configuration may have, for every rule.
-    pub fn parameters() -> Vec<Parameter> {
-        parameters::list(&schemars::schema_for!(Self))
-    }
-
     /// The parameters of its family, where that is `P`: [`ColonyParameters`] for instance.
     ///
     /// ```
@@ -111,144 +98,5 @@ impl PathSearch for PlannerConfig {
 
     fn config(&self) -> Option<&PlannerConfig> {
         Some(self)
-    }
-}
-
-impl<'de> Deserialize<'de> for PlannerConfig {
-    /// Reads what is given onto the preset of the planner that is named. Sections of other
-    /// planners may stand beside its own; they are checked and left out.
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let mut given = Map::<String, Value>::deserialize(deserializer)?;
-        let planner = match given.remove(PLANNER) {
-            Some(name) => serde_json::from_value(name)
-                .map_err(|error| D::Error::custom(format!("{PLANNER}: {error}")))?,
-            None => PlannerName::default(),
-        };
-        let known = all_sections();
-        if let Some(stray) = given.keys().find(|key| !known.contains(&key.as_str())) {
-            let known = known.join(", ");
-            let message = format!("unknown section {stray:?}; there are {PLANNER}, {known}");
-            return Err(D::Error::custom(message));
-        }
-        let config = Self::of(planner).laid(&mut given)?;
-        for other in PlannerName::ALL {
-            if given.is_empty() {
-                break;
-            }
-            let other = Self::of(other).laid::<D::Error>(&mut given)?;
-            other.check().map_err(D::Error::custom)?;
-        }
-        Ok(config)
-    }
-}
-
-/// Names of the sections of all planners, each once.
-fn all_sections() -> Vec<&'static str> {
-    let mut names = Vec::new();
-    for planner in PlannerName::ALL {
-        for &name in PlannerConfig::of(planner).section_names() {
-            if !names.contains(&name) {
-                names.push(name);
-            }
-        }
-    }
-    names
-}
-
-impl JsonSchema for PlannerConfig {
-    fn schema_name() -> Cow<'static, str> {
-        "PlannerConfig".into()
-    }
-
-    /// The sections of all planners side by side: a document may hold any of them.
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let mut properties = Map::new();
-        let mut schemas = Self::section_schemas(generator);
-        // Defaults of a section that several planners have: those of the default planner, else of
-        // the last ones, which are colonies.
-        schemas[1..].reverse();
-        for schema in schemas {
-            let sections = schema.get("properties").and_then(Value::as_object);
-            for (name, section) in sections.into_iter().flatten() {
-                properties.entry(name.clone()).or_insert(section.clone());
-            }
-        }
-        let mut planner = generator.subschema_for::<PlannerName>();
-        planner.insert("description".to_owned(), "The planner to use.".into());
-        planner.insert("default".to_owned(), PlannerName::default().name().into());
-        properties.insert(PLANNER.to_owned(), planner.to_value());
-        json_schema!({
-            "description": "Which planner, and the parameters of each.",
-            "type": "object",
-            "properties": properties,
-            "additionalProperties": false,
-        })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::colony::evaporation::{Constant, Evaporation};
-    use crate::colony::presets;
-
-    fn read(json: &str) -> Result<PlannerConfig, String> {
-        serde_json::from_str(json).map_err(|error| error.to_string())
-    }
-
-    #[test]
-    fn what_is_left_out_is_that_of_the_planner() {
-        let config = read(r#"{"planner": "wang2019", "colony": {"n_ants": 50}}"#).unwrap();
-        let mut expected = PlannerConfig::of(PlannerName::Wang2019);
-        expected.colony_mut().unwrap().colony.n_ants = 50;
-        assert_eq!(config, expected);
-        assert_eq!(read("{}").unwrap(), PlannerConfig::default());
-    }
-
-    #[test]
-    fn a_rule_keeps_its_parameters_and_another_brings_its_own() {
-        let evaporation = |json: &str| {
-            let config = read(json).unwrap();
-            config.colony().unwrap().colony.evaporation.clone()
-        };
-        let stretched =
-            evaporation(r#"{"planner": "lei2020", "colony": {"evaporation": {"stretch": 7.5}}}"#);
-        let mut expected = presets::lei2020().evaporation;
-        if let Evaporation::Poisson(poisson) = &mut expected {
-            poisson.stretch = 7.5;
-        }
-        assert_eq!(stretched, expected);
-        let constant = r#"{"rule": "constant", "rho": 0.3}"#;
-        let constant = evaporation(&format!(
-            r#"{{"planner": "lei2020", "colony": {{"evaporation": {constant}}}}}"#
-        ));
-        assert_eq!(constant, Evaporation::Constant(Constant { rho: 0.3 }));
-    }
-
-    #[test]
-    fn every_planner_is_read_back_as_written() {
-        for planner in PlannerName::ALL {
-            let config = PlannerConfig::of(planner);
-            let json = serde_json::to_string(&config).unwrap();
-            assert_eq!(read(&json).unwrap(), config, "{json}");
-        }
-    }
-
-    #[test]
-    fn what_is_unknown_or_of_the_wrong_type_is_named() {
-        for (bad, named) in [
-            (r#"{"colonie": {}}"#, "colonie"),
-            (r#"{"planner": "ants"}"#, "lei2020"),
-            (r#"{"colony": {"n_ant": 3}}"#, "n_ants"),
-            (r#"{"colony": {"n_ants": "many"}}"#, "colony"),
-            (
-                r#"{"colony": {"evaporation": {"rule": "poison"}}}"#,
-                "poisson",
-            ),
-            (r#"{"colony": {"evaporation": {"lambda": 3}}}"#, "rho"),
-        ] {
-            let message = read(bad).unwrap_err();
-            assert!(message.contains(named), "{message}");
-        }
     }
 }

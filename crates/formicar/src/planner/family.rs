@@ -4,8 +4,7 @@ use super::{Abilities, ConfigError, Found, Halt, Hints, PlanError, Task};
 use crate::objective::DriveCost;
 use crate::path::CurvePath;
 use crate::progress::Limits;
-use serde::Serialize;
-use serde::de::{DeserializeOwned, Error};
+#[cfg(feature = "serde")]
 use serde_json::{Map, Value};
 
 /// The search of a family, as [`PathSearch`](super::PathSearch) asks for it.
@@ -44,7 +43,8 @@ pub(super) trait Sections: Sized {
 
     /// These parameters with those sections laid onto them that a document gives; they are taken
     /// out of it.
-    fn laid<E: Error>(self, given: &mut Map<String, Value>) -> Result<Self, E>;
+    #[cfg(feature = "serde")]
+    fn laid<E: serde::de::Error>(self, given: &mut Map<String, Value>) -> Result<Self, E>;
 }
 
 /// Declares the parameters of a family: a struct of sections, each with parameters of its own.
@@ -54,8 +54,10 @@ macro_rules! sections {
         $config:ident { $($(#[$about_section:meta])* $section:ident: $parameters:ty,)+ }
     ) => {
         $(#[$about])*
-        #[derive(Clone, Debug, PartialEq, serde::Serialize, schemars::JsonSchema)]
-        #[schemars(default)]
+        #[derive(Clone, Debug, PartialEq)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+        #[cfg_attr(feature = "schema", schemars(default))]
         pub struct $config {
             $($(#[$about_section])* pub $section: $parameters,)+
         }
@@ -69,6 +71,7 @@ macro_rules! sections {
                 Ok(())
             }
 
+            #[cfg(feature = "serde")]
             fn laid<E: serde::de::Error>(
                 self,
                 given: &mut serde_json::Map<String, serde_json::Value>,
@@ -82,17 +85,19 @@ macro_rules! sections {
 pub(super) use sections;
 
 /// The key of the name of a rule, beside the rule's parameters.
+#[cfg(feature = "serde")]
 const RULE: &str = "rule";
 
 /// A section of the given document, laid onto its defaults.
+#[cfg(feature = "serde")]
 pub(super) fn laid<T, E>(
     defaults: T,
     section: &'static str,
     given: &mut Map<String, Value>,
 ) -> Result<T, E>
 where
-    T: DeserializeOwned + Serialize,
-    E: Error,
+    T: serde::de::DeserializeOwned + serde::Serialize,
+    E: serde::de::Error,
 {
     let Some(given) = given.remove(section) else {
         return Ok(defaults);
@@ -104,6 +109,7 @@ where
 }
 
 /// Lays given values onto others, table by table; another rule brings its own parameters.
+#[cfg(feature = "serde")]
 fn lay(given: Value, onto: &mut Value) {
     match (given, onto) {
         (Value::Object(given), Value::Object(onto)) => {

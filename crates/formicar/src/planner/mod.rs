@@ -9,6 +9,8 @@ mod cells;
 mod chords;
 mod colony;
 mod config;
+#[cfg(feature = "serde")]
+mod config_document;
 mod documents;
 mod door;
 mod evolution;
@@ -28,12 +30,14 @@ pub use cells::{AstarParameters, DijkstraParameters, GridSearchConfig, ImprovedA
 pub use chords::ChordParameters;
 pub use colony::ColonyParameters;
 pub use config::ConfigError;
+#[cfg(feature = "serde")]
 pub use documents::{
     ANSWER_SCHEMA, Answer, AnswerContext, AnswerError, AnswerStatus, CertificateHashes,
-    CertificateNumbers, Collision, ColonyRecord, Disconnected, Explanation, Gap, MapRecord,
-    POSE_SPACING_M, PathDocument, PoseRecord, Provenance, RequestDocument, SegmentRecord,
-    SoftCostsRecord, StoredPath, Timing, VehicleRecord, ViaRecord,
+    CertificateNumbers, ColonyRecord, MapRecord, POSE_SPACING_M, PathDocument, PoseRecord,
+    Provenance, RequestDocument, SegmentRecord, SoftCostsRecord, StoredPath, Timing, VehicleRecord,
+    ViaRecord,
 };
+pub use documents::{Collision, Disconnected, Explanation, Gap};
 pub use door::{Planner, plan};
 pub use evolution::EvolutionParameters;
 pub use flagship::{FormicarParameters, ReplanConfig};

@@ -1,12 +1,12 @@
 //! The iterations of a run, and why it stopped.
 
 use super::{IterationRecord, Limits, Status};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// The iterations of a colony, or the generations of a population, in their order.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct History {
     /// One record per iteration.
     pub iterations: Vec<IterationRecord>,
@@ -25,8 +25,10 @@ impl History {
 }
 
 /// Why a run of iterations stopped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Stop {
     /// All iterations are done.
     Iterations,

@@ -3,16 +3,16 @@
 use super::pheromone::pheromone_by_cell;
 use crate::map::Cell;
 use crate::path::GridPath;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// The numbers of one iteration of a colony, or of one generation of a population.
 ///
 /// Costs are those of the colony's objective; lengths are in cells, as the objective counts them.
 /// In a population, ants are individuals, and those that arrived are the ones free of
 /// collisions; costs are theirs without a penalty, and there is neither evaporation nor pheromone.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct IterationRecord {
     /// Its number, from 0.
     pub iteration: u32,

@@ -1,8 +1,6 @@
 //! The named endings of a query.
 
 use crate::scenario::ErrorCode;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// The ending of a query.
 ///
@@ -13,8 +11,10 @@ use serde::{Deserialize, Serialize};
 /// assert_eq!(Status::BudgetExhausted.name(), "budget_exhausted");
 /// assert_eq!(ErrorCode::from(Status::TimedOut), ErrorCode::Timeout);
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Status {
     /// A certified path.

@@ -5,6 +5,7 @@
 //! limits come in as values. The same input gives the same bytes. Text is drawn as strokes, so
 //! that no font is needed and a picture looks the same everywhere.
 
+#[cfg(feature = "serde")]
 mod answer;
 mod ants;
 mod cells;
@@ -34,6 +35,7 @@ mod svg;
 mod ticks;
 mod view;
 
+#[cfg(feature = "serde")]
 pub use answer::{AnswerPicture, answer_picture};
 pub use chart::{
     Axis, AxisScale, Band, BoxRow, Chart, ChartGrid, DotFill, Dots, Limit, ProfilePoint, Ribbon,

@@ -2,8 +2,6 @@
 
 use super::{Request, ScenarioError};
 use crate::vehicle::{Motion, Vehicle};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// Least and largest rate that may be asked for, 1/m^2: beyond them lie no vehicles, and numbers
 /// lose their digits.
@@ -22,8 +20,10 @@ const RATES_PER_M2: [f64; 2] = [1e-4, 1e4];
 /// };
 /// assert_ne!(request.curvature, CurvatureMode::default());
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum CurvatureMode {
     /// It may: the path is a chain of lines and arcs, at whose joints the wheels turn in no time.
@@ -34,13 +34,15 @@ pub enum CurvatureMode {
 }
 
 /// The limit of the curvature's rate of change.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct CurvatureRate {
     /// Fastest change of the curvature per driven metre, 1/m^2, 0.0001 to 10000. Where left out,
     /// what the vehicle's steering rate allows at its speed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 1e-4, max = 1e4))]
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-4, max = 1e4)))]
     pub max_rate_per_m2: Option<f64>,
 }
 

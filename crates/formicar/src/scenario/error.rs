@@ -1,8 +1,6 @@
 //! Requests that cannot be planned for, and Nav2's codes for outcomes.
 
 use crate::map::Cell;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// An error in a request.
@@ -128,8 +126,10 @@ impl std::fmt::Display for Endpoint {
 }
 
 /// The outcome codes of Nav2's `ComputePathToPose` action.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "SCREAMING_SNAKE_CASE"))]
 #[repr(u16)]
 #[non_exhaustive]
 pub enum ErrorCode {

@@ -3,8 +3,6 @@
 use super::CurvatureMode;
 use crate::geometry::{Point2, Pose2};
 use crate::vehicle::Gears;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
 /// A start, a goal, and the conditions of the path between them. World coordinates.
@@ -107,8 +105,10 @@ impl ViaPoint {
 }
 
 /// The rule for the start heading.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum StartHeading {
     /// As given.
@@ -119,8 +119,10 @@ pub enum StartHeading {
 }
 
 /// The rule for the goal heading.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum GoalHeading {
     /// As given.
@@ -133,14 +135,16 @@ pub enum GoalHeading {
 }
 
 /// The tolerance at the goal.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct GoalTolerance {
     /// Distance in metres, above 0.
-    #[serde(rename = "xy")]
+    #[cfg_attr(feature = "serde", serde(rename = "xy"))]
     pub xy_m: f64,
     /// Heading difference in radians, above 0.
-    #[serde(rename = "yaw")]
+    #[cfg_attr(feature = "serde", serde(rename = "yaw"))]
     pub yaw_rad: f64,
 }
 

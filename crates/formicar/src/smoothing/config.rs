@@ -3,12 +3,12 @@
 use super::redundant_nodes::RedundantNodes;
 use crate::objective::DriveCost;
 use crate::parameters::{Parameters, parameters};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// The way in which corners of a polyline are made drivable.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum Corners {
     /// By 2-turning alone (Lei 2020, sec. III.B).
     TwoTurning,

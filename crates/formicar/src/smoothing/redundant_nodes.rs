@@ -3,12 +3,12 @@
 use crate::map::{BitGrid, Cell, DiagonalRule, cells_in_sight};
 use crate::parameters::Parameters;
 use crate::path::GridPath;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// The nodes of a grid path that stay before its corners are rounded.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum RedundantNodes {
     /// All of them.
     Keep,

@@ -6,11 +6,11 @@ use crate::geometry::Pose2;
 use crate::path::CurveSegment;
 use crate::validation::{CURVATURE_TOLERANCE, Violation, ViolationKind, judge_path};
 use crate::vehicle::Vehicle;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// The body on its driven way: exact, as the judge measures any path.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct DrivenClearance {
     /// Least distance from the footprint (with its safety margin) to an occupied cell square or
@@ -27,7 +27,9 @@ pub struct DrivenClearance {
 }
 
 /// The first touch.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct Contact {
     /// With an occupied cell, or with the border of the map.

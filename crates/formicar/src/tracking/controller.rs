@@ -4,12 +4,12 @@ use super::stretch::Stretch;
 use super::{PurePursuit, Stanley};
 use crate::geometry::Pose2;
 use crate::parameters::{OutOfRange, Parameters};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// What turns the wheels.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "law", rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(tag = "law", rename_all = "kebab-case"))]
 pub enum Controller {
     /// The path's own steering angle over the driven length: nobody looks where the vehicle is.
     OpenLoop,

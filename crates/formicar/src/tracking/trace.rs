@@ -3,16 +3,16 @@
 use super::{DrivenClearance, TrackingConfig};
 use crate::geometry::Pose2;
 use crate::path::{CurvePath, Direction};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 
 /// Name and version of the document of a drive.
 pub const TRACKING_SCHEMA: &str = "formicar/track/1";
 
 /// The ending of a simulated drive.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum TrackingStatus {
     /// At the end of the path, however far beside it.
@@ -35,7 +35,9 @@ impl TrackingStatus {
 }
 
 /// The vehicle at one time; angles in radians, positive to the left.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct TracePoint {
     /// Time since the drive began, seconds; it goes on while the wheels are turned standing.
@@ -47,7 +49,7 @@ pub struct TracePoint {
     /// The rear-axle center; heading in (-pi, pi].
     pub pose: Pose2,
     /// Gear in which the pose is reached: 1 forward, -1 in reverse.
-    #[schemars(with = "i8")]
+    #[cfg_attr(feature = "schema", schemars(with = "i8"))]
     pub direction: Direction,
     /// Steering angle of the virtual middle wheel with which the pose is reached.
     pub steer_rad: f64,
@@ -62,7 +64,9 @@ pub struct TracePoint {
 }
 
 /// A simulated drive in numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct TrackingSummary {
     /// Time from begin to end, seconds.
@@ -111,7 +115,9 @@ pub struct Tracking {
 }
 
 /// The document that front ends print about a simulated drive.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TrackingDocument<'a> {
     /// Name and version of this document: `formicar/track/1`.
     pub schema: &'static str,

@@ -2,11 +2,11 @@
 
 use super::{BeeColonyConfig, ParameterSpace, SearchRule, TuningError};
 use crate::numeric::{RandomStream, Seed};
-use serde::{Deserialize, Serialize};
 
 /// A place in the unit cube of a space, and what it costs.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Source {
     /// A coordinate in 0 to 1 for each dimension.
     pub position: Vec<f64>,
@@ -29,8 +29,9 @@ impl Source {
 }
 
 /// The result of a cycle.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct CycleRecord {
     /// Evaluations so far.
@@ -63,8 +64,9 @@ enum Phase {
 /// where these are above the limit.
 ///
 /// The state is what serde writes: read again, the search goes on with the same bits.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct BeeColony {
     space: ParameterSpace,
     config: BeeColonyConfig,

@@ -2,8 +2,6 @@
 
 use super::rule::SearchRule;
 use crate::parameters::{OutOfRange, Parameters, Range, parameters};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// The most evaluations of a search.
 const MAX_EVALUATIONS: u64 = 1_000_000_000_000;
@@ -28,8 +26,10 @@ parameters! {
 }
 
 /// By which rules bees search.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum BeeVariant {
     /// By one, [`SearchRule::Neighbor`] (Karaboga 2005).
     Basic,

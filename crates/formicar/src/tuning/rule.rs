@@ -2,14 +2,14 @@
 
 use super::colony::Source;
 use crate::numeric::RandomStream;
-use serde::{Deserialize, Serialize};
 
 /// The rule for one coordinate j of a candidate, drawn at random; the others are those of the
 /// source `x_i` that the bee is at. Sources k and r1, r2, r3 are drawn at random and differ from
 /// each other and from i, phi is drawn from -1 to 1, y is the best place so far. A coordinate that
 /// leaves its range is set to its end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum SearchRule {
     /// `x_i + phi (x_i - x_k)` (Karaboga 2005, "An idea based on honey bee swarm for numerical
     /// optimization", TR06; Karaboga & Basturk 2007, J. Global Optimization 39, (2.2)).

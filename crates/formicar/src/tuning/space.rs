@@ -2,14 +2,17 @@
 
 use super::TuningError;
 use crate::parameters::OutOfRange;
-use serde::{Deserialize, Serialize};
 
 /// Largest magnitude of an integer bound: every integer up to it is an `f64`.
 const MAX_INTEGER: f64 = 9_007_199_254_740_992.0;
 
 /// The values that a dimension takes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)
+)]
 pub enum Kind {
     /// Numbers from `low` to `high`.
     Real {
@@ -47,8 +50,9 @@ pub enum Kind {
 }
 
 /// A parameter that can be chosen.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Dimension {
     /// Its name.
     pub name: String,
@@ -149,8 +153,9 @@ impl Dimension {
 }
 
 /// The parameters that can be chosen, each with its values.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(transparent)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(transparent))]
 pub struct ParameterSpace {
     dimensions: Vec<Dimension>,
 }

@@ -1,12 +1,12 @@
 //! The judge's result: every violation, or a certificate.
 
 use crate::geometry::Pose2;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use std::ops::Deref;
 
 /// The judge's findings on one path; world coordinates.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct Report {
     /// True if nothing was violated.
@@ -47,7 +47,9 @@ pub struct Report {
 }
 
 /// A violation on a path.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct Violation {
     /// The kind of violation.
@@ -65,8 +67,10 @@ pub struct Violation {
 }
 
 /// Kinds of violations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum ViolationKind {
     /// The body touches an occupied cell.
@@ -92,8 +96,9 @@ pub enum ViolationKind {
 }
 
 /// The judge's proof that a path can be driven. Only the judge makes one.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(transparent)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(transparent))]
 pub struct Certificate(Report);
 
 impl Report {

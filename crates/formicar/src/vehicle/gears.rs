@@ -1,8 +1,5 @@
 //! The gears that a vehicle may use.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 /// The gears that a path may use. Documents say `forward` and `reverse`, and `reverse` stands for
 /// both.
 ///
@@ -14,15 +11,17 @@ use serde::{Deserialize, Serialize};
 /// assert_eq!(serde_json::to_string(&Gears::Both)?, r#""reverse""#);
 /// # Ok::<(), serde_json::Error>(())
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Gears {
     /// Forward only.
     Forward,
     /// Forward and in reverse, reverse at a penalty.
     #[default]
-    #[serde(rename = "reverse")]
+    #[cfg_attr(feature = "serde", serde(rename = "reverse"))]
     Both,
 }
 

@@ -2,8 +2,6 @@
 
 use crate::geometry::Point2;
 use crate::parameters::{Parameters, parameters};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 use std::ops::Bound::{self, Excluded, Included};
 
@@ -76,8 +74,10 @@ parameters! {
 }
 
 /// A footprint as a list of points or as the string that ROS configurations hold.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(untagged))]
 pub enum FootprintSpec {
     /// Corner points `[x, y]`, metres.
     Points(Vec<[f64; 2]>),
@@ -95,9 +95,18 @@ impl FootprintSpec {
     pub fn points(&self) -> Result<Vec<Point2>, String> {
         let pairs = match self {
             Self::Points(pairs) => pairs.clone(),
-            Self::RosString(text) => serde_json::from_str::<Vec<[f64; 2]>>(text)
-                .map_err(|e| format!("{e}; expected [[x1, y1], [x2, y2], ...]"))?,
+            Self::RosString(text) => pairs(text)?,
         };
         Ok(pairs.into_iter().map(|[x, y]| Point2::new(x, y)).collect())
     }
+}
+
+#[cfg(feature = "serde")]
+fn pairs(text: &str) -> Result<Vec<[f64; 2]>, String> {
+    serde_json::from_str(text).map_err(|e| format!("{e}; expected [[x1, y1], [x2, y2], ...]"))
+}
+
+#[cfg(not(feature = "serde"))]
+fn pairs(_text: &str) -> Result<Vec<[f64; 2]>, String> {
+    Err("a string is read with the feature `serde` only; hint: give points".to_owned())
 }

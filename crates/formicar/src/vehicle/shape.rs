@@ -3,14 +3,14 @@
 use super::{VehicleError, VehicleParameters};
 use crate::geometry::{ConvexPolygon, Point2};
 use crate::parameters::OutOfRange;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 use xxhash_rust::xxh3::xxh3_128;
 
 /// The kinds of motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Motion {
     /// Rolls on a steered axle: bounded curvature, heading along the path.

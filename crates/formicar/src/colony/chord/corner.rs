@@ -1,8 +1,6 @@
 //! The cost of the corner before a step.
 
 use crate::parameters::{Parameters, parameters, rules};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 rules! {
     /// omega of Li 2024 (18): what the corner before a step costs, in terms of the steering phi
@@ -32,8 +30,10 @@ parameters! {
 }
 
 /// The quantity G in the corner term.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum StraightnessUse {
     /// Li 2024 (19): the mean of the last turns, weighted by the steps beside them.
     #[default]

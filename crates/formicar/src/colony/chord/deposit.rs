@@ -3,8 +3,6 @@
 use crate::colony::generation::Generation;
 use crate::objective::PolylineCost;
 use crate::parameters::{Parameters, parameters};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 parameters! {
     /// dtau = `P_h` (kappa1 `W_ref` / W + kappa2 `L_ref` / L) of Li 2024 (23), with W the mean
@@ -28,8 +26,10 @@ parameters! {
 }
 
 /// The ants that deposit.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum Depositor {
     /// The best of the generation.
     #[default]

@@ -1,8 +1,6 @@
 //! Parameters of ants that drive.
 
 use crate::parameters::{OutOfRange, Parameters, Range, parameters};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// The most ants of a generation.
 const MAX_ANTS: u32 = 10_000;
@@ -54,8 +52,10 @@ parameters! {
 }
 
 /// The searches that race for a first path; one of them alone shows the gain of the other.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Racers {
     /// Ants and hybrid A*, in turns.
     #[default]

@@ -1,8 +1,6 @@
 //! Evaporation that settles as the generations go by.
 
 use crate::parameters::{Parameters, parameters};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 parameters! {
     /// zeta(t) = zeta(0) a^(t / N) in generation t of N, from zeta(0) to a zeta(0): a reading of Li
@@ -27,8 +25,10 @@ parameters! {
 }
 
 /// Whether shares are multiplied on from generation to generation.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum Recursion {
     /// By the number of the generation alone.
     #[default]

@@ -13,8 +13,6 @@ use crate::map::Cell;
 use crate::parameters::{Parameters, rules};
 use crate::progress::{Limits, Status};
 use crate::search::{AstarWorkspace, SearchError, astar};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 rules! {
     /// Pheromone before the first iteration.
@@ -29,8 +27,10 @@ rules! {
 }
 
 /// The unit of initial pheromone.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum PheromoneUnit {
     /// One.
     #[default]

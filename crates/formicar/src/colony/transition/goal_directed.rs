@@ -2,13 +2,13 @@
 
 use super::class;
 use crate::parameters::Parameters;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// Steps at no more than 90 degrees to the direction of the goal come first, the others only where
 /// none of those is left: Lei & Zheng 2020, sec. II.F, figure 6.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct GoalDirected {}
 
 impl Parameters for GoalDirected {}

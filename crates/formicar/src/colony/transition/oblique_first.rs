@@ -2,13 +2,13 @@
 
 use super::class;
 use crate::parameters::Parameters;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// Diagonal steps at less than 90 degrees to the direction of the goal come first: "prefers to
 /// move forward obliquely" (Wang 2019, sec. 1, of Joshy & Supriya 2016).
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ObliqueFirst {}
 
 impl Parameters for ObliqueFirst {}

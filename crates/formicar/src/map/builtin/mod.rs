@@ -6,8 +6,6 @@ mod scenes;
 
 use super::OccupancyGrid;
 use crate::geometry::Pose2;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// Errors of built-in maps: unknown names.
@@ -33,8 +31,10 @@ pub enum BuiltinError {
 }
 
 /// The purpose of a built-in map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum BuiltinKind {
     /// A small grid as papers on ant colonies use them.

@@ -4,7 +4,6 @@ use super::files::{MAX_TEXT_BYTES, read_bytes, text};
 use super::{FormatError, FormatProblem, Place};
 use crate::geometry::Pose2;
 use crate::vehicle::{Vehicle, VehicleParameters};
-use serde::Deserialize;
 use serde_json::{Map, Value};
 use std::path::{Path, PathBuf};
 
@@ -34,13 +33,13 @@ pub fn read_car_scenarios(path: &Path) -> Result<Vec<CarScenario>, FormatError> 
         .map_err(|e| e.in_file(path))
 }
 
-#[derive(Deserialize)]
+#[derive(serde::Deserialize)]
 struct CarFile {
     version: u64,
     scenarios: Vec<Entry>,
 }
 
-#[derive(Deserialize)]
+#[derive(serde::Deserialize)]
 struct Entry {
     id: String,
     map: PathBuf,

@@ -4,7 +4,6 @@ use super::error::excerpt;
 use super::{FormatError, FormatProblem, Place};
 use crate::geometry::Pose2;
 use crate::map::GridFrame;
-use serde::Deserialize;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -14,7 +13,7 @@ pub(super) const DEFAULT_OCCUPIED_THRESHOLD: f64 = 0.65;
 pub(super) const DEFAULT_FREE_THRESHOLD: f64 = 0.196;
 
 /// The conversion of grey values to cell values.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RosMapMode {
     /// Occupied, free, or unknown in between.
@@ -71,7 +70,7 @@ pub struct RosMapDescription {
 }
 
 /// The keys as users write them; keys that are not listed are ignored, as Nav2 does.
-#[derive(Deserialize)]
+#[derive(serde::Deserialize)]
 struct Keys {
     image: Option<String>,
     resolution: Option<f64>,
@@ -82,7 +81,7 @@ struct Keys {
     mode: Option<RosMapMode>,
 }
 
-#[derive(Deserialize)]
+#[derive(serde::Deserialize)]
 #[serde(untagged, expecting = "negate must be 0, 1, true or false")]
 enum Negate {
     Flag(bool),

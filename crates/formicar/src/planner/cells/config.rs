@@ -25,7 +25,7 @@ sections! {
         /// Smoothing: from a path over cells to one that a car can drive.
         smoothing: SmoothingConfig,
         /// Weights of transitions, where a request asks for continuous curvature.
-        #[serde(skip_serializing_if = "DriveCost::is_default")]
+        #[cfg_attr(feature = "serde", serde(skip_serializing_if = "DriveCost::is_default"))]
         cost: DriveCost,
     }
 }
@@ -39,7 +39,7 @@ sections! {
         /// Smoothing: from a path over cells to one that a car can drive.
         smoothing: SmoothingConfig,
         /// Weights of transitions, where a request asks for continuous curvature.
-        #[serde(skip_serializing_if = "DriveCost::is_default")]
+        #[cfg_attr(feature = "serde", serde(skip_serializing_if = "DriveCost::is_default"))]
         cost: DriveCost,
     }
 }
@@ -56,7 +56,7 @@ sections! {
         /// Smoothing: from a path over cells to one that a car can drive.
         smoothing: SmoothingConfig,
         /// Weights of transitions, where a request asks for continuous curvature.
-        #[serde(skip_serializing_if = "DriveCost::is_default")]
+        #[cfg_attr(feature = "serde", serde(skip_serializing_if = "DriveCost::is_default"))]
         cost: DriveCost,
     }
 }

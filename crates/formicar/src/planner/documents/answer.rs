@@ -9,8 +9,6 @@ use crate::progress::{IterationRecord, Status, Stop};
 use crate::scenario::{ErrorCode, Request};
 use crate::validation::Report;
 use crate::vehicle::{Motion, VehicleParameters};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// Name and version of the answer document.
 pub const ANSWER_SCHEMA: &str = "formicar/answer/1";
@@ -18,7 +16,8 @@ pub const ANSWER_SCHEMA: &str = "formicar/answer/1";
 /// The answer to one request.
 ///
 /// Two runs of one request with one seed differ in `timing` alone.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct Answer {
     /// Name and version of this document: `formicar/answer/1`.
@@ -61,7 +60,8 @@ pub struct Answer {
 }
 
 /// The ending of a request.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum AnswerStatus {
@@ -110,7 +110,8 @@ impl From<Status> for AnswerStatus {
 }
 
 /// The run of a colony.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ColonyRecord {
     /// Why it stopped.
     pub stop: Stop,
@@ -139,7 +140,8 @@ impl ColonyRecord {
 }
 
 /// Times in seconds; the caller measures them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Timing {
     /// Preparing the map, once per map and vehicle.
     pub map_setup_s: f64,
@@ -152,7 +154,8 @@ pub struct Timing {
 }
 
 /// All that a repetition of a run needs.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct Provenance {
     /// Version of formicar.
@@ -168,7 +171,8 @@ pub struct Provenance {
 }
 
 /// Source and reading of a map.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MapRecord {
     /// File or built-in name.
     pub name: String,
@@ -190,7 +194,8 @@ pub struct MapRecord {
 }
 
 /// Source of soft costs.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SoftCostsRecord {
     /// File, or `map`: the graded cells of the map itself.
     pub name: String,
@@ -199,7 +204,8 @@ pub struct SoftCostsRecord {
 }
 
 /// A vehicle by name and measures.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct VehicleRecord {
     /// Preset or file.
     pub name: String,

@@ -3,11 +3,11 @@
 use crate::map::Cell;
 use crate::planner::PlanError;
 use crate::scenario::ScenarioError;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// The obstacle to a path, as far as it is known.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Explanation {
     /// The leg that failed, counted from 1; null without via points.
     pub leg: Option<usize>,
@@ -20,7 +20,9 @@ pub struct Explanation {
 }
 
 /// A footprint on obstacles.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Collision {
     /// Start, goal or which via point.
     pub end: String,
@@ -29,7 +31,9 @@ pub struct Collision {
 }
 
 /// Start and goal in different parts of the ground where the vehicle's rear axle can be at all.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Disconnected {
     /// The axle's center keeps at least this from obstacles, meters: the largest disc about it
     /// inside the footprint.
@@ -41,7 +45,9 @@ pub struct Disconnected {
 }
 
 /// A narrow place.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Gap {
     /// Its middle, world coordinates, meters.
     pub x: f64,

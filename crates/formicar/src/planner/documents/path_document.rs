@@ -4,15 +4,14 @@ use crate::collision::{Body, ObstacleMap};
 use crate::geometry::{Pose2, wrap_angle};
 use crate::path::{CurvePath, CurveSegment, Direction, SpeedLimits, SpeedProfile, TimedPose};
 use crate::vehicle::Vehicle;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 
 /// Greatest distance between two poses of a written path, meters.
 pub const POSE_SPACING_M: f64 = 0.1;
 
 /// A path, world coordinates.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PathDocument {
     /// Poses at most 0.1 m apart, with both ends of every segment.
     pub poses: Vec<PoseRecord>,
@@ -21,7 +20,8 @@ pub struct PathDocument {
 }
 
 /// A sampled pose of the rear-axle center.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PoseRecord {
     /// Meters.
     pub x: f64,
@@ -32,7 +32,7 @@ pub struct PoseRecord {
     /// Arc length driven so far, meters.
     pub s: f64,
     /// Gear in which the pose is reached: 1 forward, -1 in reverse.
-    #[schemars(with = "i8")]
+    #[cfg_attr(feature = "schema", schemars(with = "i8"))]
     pub direction: Direction,
     /// tan(steer) / wheelbase where the pose is reached, 1/m, positive left.
     pub curvature: f64,
@@ -50,7 +50,8 @@ pub struct PoseRecord {
 
 /// A line, an arc or a clothoid; along it the heading changes by
 /// `direction * (curvature * length + curvature_rate * length^2 / 2)`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SegmentRecord {
     /// Start of the segment, meters.
     pub x: f64,
@@ -66,7 +67,7 @@ pub struct SegmentRecord {
     /// Driven length, meters.
     pub length: f64,
     /// Gear: 1 forward, -1 in reverse.
-    #[schemars(with = "i8")]
+    #[cfg_attr(feature = "schema", schemars(with = "i8"))]
     pub direction: Direction,
 }
 

@@ -5,12 +5,11 @@ use crate::geometry::Pose2;
 use crate::scenario::ScenarioError;
 use crate::scenario::{CurvatureMode, GoalHeading, GoalTolerance, Request, StartHeading};
 use crate::vehicle::Gears;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
 /// One request on the wire; what is left out takes the value that the planner was started with.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct RequestDocument {
     /// Anything; the answer repeats it.

@@ -5,7 +5,6 @@ use super::path_document::{PathDocument, PoseRecord};
 use super::request_document::RequestDocument;
 use crate::path::CurvePath;
 use crate::scenario::{Request, ScenarioError};
-use serde::Deserialize;
 use thiserror::Error;
 
 /// The part of a stored answer that `check` needs.
@@ -24,7 +23,7 @@ pub struct StoredPath {
 }
 
 /// The numbers that a certificate claims about a path.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize)]
 pub struct CertificateNumbers {
     /// True where the path can be driven.
     pub valid: bool,
@@ -39,7 +38,7 @@ pub struct CertificateNumbers {
 }
 
 /// The hashes of everything that a certificate vouches for.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, serde::Deserialize)]
 pub struct CertificateHashes {
     /// Hash of the map.
     pub map_hash: String,
@@ -105,7 +104,7 @@ impl StoredPath {
     }
 }
 
-#[derive(Deserialize)]
+#[derive(serde::Deserialize)]
 struct StoredAnswer {
     schema: String,
     status: String,
@@ -114,7 +113,7 @@ struct StoredAnswer {
     provenance: Option<StoredProvenance>,
 }
 
-#[derive(Deserialize)]
+#[derive(serde::Deserialize)]
 struct StoredCertificate {
     #[serde(flatten)]
     hashes: CertificateHashes,
@@ -122,7 +121,7 @@ struct StoredCertificate {
     numbers: CertificateNumbers,
 }
 
-#[derive(Deserialize)]
+#[derive(serde::Deserialize)]
 struct StoredProvenance {
     request: Option<RequestDocument>,
 }

@@ -2,11 +2,10 @@
 
 use crate::geometry::Point2;
 use crate::scenario::{GoalTolerance, ViaPoint};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// A place that the path passes on its way.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ViaRecord {
     /// Position, `[x m, y m]`.

@@ -14,7 +14,7 @@ sections! {
         /// Parameters of the search.
         hybrid_astar: HybridAstarConfig,
         /// Weights of transitions, where a request asks for continuous curvature.
-        #[serde(skip_serializing_if = "DriveCost::is_default")]
+        #[cfg_attr(feature = "serde", serde(skip_serializing_if = "DriveCost::is_default"))]
         cost: DriveCost,
     }
 }

@@ -24,8 +24,9 @@ use super::style::Dash;
 use crate::geometry::Point2;
 
 /// Spacing of values along an axis.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum AxisScale {
     /// Equal differences are equally far apart.
     #[default]
