@@ -70,6 +70,7 @@ impl Parameters for Falloff {}
 
 impl DriveCost {
     /// Whether these are the defaults.
+    #[cfg(feature = "serde")]
     pub(crate) fn is_default(&self) -> bool {
         *self == Self::default()
     }

@@ -36,6 +36,7 @@ pub(super) trait Family {
 /// The parameters of a family, as sections of a document.
 pub(super) trait Sections: Sized {
     /// Names of the sections.
+    #[cfg(feature = "serde")]
     const NAMES: &'static [&'static str];
 
     /// Checks the range of every parameter.
@@ -63,6 +64,7 @@ macro_rules! sections {
         }
 
         impl $crate::planner::family::Sections for $config {
+            #[cfg(feature = "serde")]
             const NAMES: &'static [&'static str] = &[$(stringify!($section)),+];
 
             fn check(&self) -> Result<(), $crate::planner::ConfigError> {
