@@ -6,6 +6,7 @@ mod vehicle;
 
 pub(crate) use args::SceneArgs;
 pub(crate) use scenario_file::ScenarioFile;
+#[cfg(feature = "lab")]
 pub(crate) use vehicle::by_name as vehicle;
 
 use anyhow::{Result, bail};
