@@ -24,6 +24,7 @@ mod replanning;
 mod requests;
 mod rivals;
 mod smoothing;
+mod threads;
 mod tracking;
 mod tuning;
 mod validation;
