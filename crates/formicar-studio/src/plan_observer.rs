@@ -12,7 +12,7 @@ use formicar::progress::{
 };
 use std::time::{Duration, Instant};
 
-/// Distance between points of a path or way that is sent, metres.
+/// Distance between points of a path or way that is sent, meters.
 const SPACING_M: f64 = 0.25;
 /// The most motions of hybrid A* that are sent.
 const MAX_MOTIONS: usize = 60_000;

@@ -78,7 +78,7 @@ fn via_point(pose: Pose2, random: &mut RandomStream) -> ViaPoint {
     }
 }
 
-/// From a tenth of a millimetre to a metre or so; none where the usual one will do.
+/// From a tenth of a millimeter to a meter or so; none where the usual one will do.
 fn tolerance(random: &mut RandomStream) -> Option<GoalTolerance> {
     let mut power = |low: f64, high: f64| 10_f64.powf(random.range(low, high));
     let tolerance = GoalTolerance {

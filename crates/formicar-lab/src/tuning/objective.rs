@@ -37,7 +37,7 @@ pub struct Objective {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Reference {
-    /// Metres.
+    /// Meters.
     pub cost_m: f64,
     /// Steps.
     pub first_steps: f64,

@@ -61,12 +61,12 @@ impl Body {
         }
     }
 
-    /// Radius of the largest disc about the corner mean that stays inside the body, metres.
+    /// Radius of the largest disc about the corner mean that stays inside the body, meters.
     pub fn inner_radius_m(&self) -> f64 {
         self.inner_radius
     }
 
-    /// Width of the ring that the body sweeps when the rear-axle centre drives a circle, metres.
+    /// Width of the ring that the body sweeps when the rear-axle center drives a circle, meters.
     pub fn swept_width_m(&self, radius_m: f64) -> f64 {
         let center = Point2::new(0.0, radius_m);
         let outer = self
@@ -76,7 +76,7 @@ impl Body {
         outer - point_boundary(center, &self.corners)
     }
 
-    /// Largest distance by which the covering discs exceed the sides of the bounding box, metres.
+    /// Largest distance by which the covering discs exceed the sides of the bounding box, meters.
     pub fn discs_stand_out_m(&self) -> f64 {
         self.disc_radius - self.half.x.min(self.half.y)
     }
