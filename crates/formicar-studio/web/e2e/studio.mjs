@@ -73,8 +73,8 @@ export function useStudio() {
   });
 
   function scene(name, options, body) {
-    test(name, { todo: options.todo }, async () => {
-      const { hash = "", expects = null, todo: _, ...settings } = options;
+    test(name, async () => {
+      const { hash = "", expects = null, ...settings } = options;
       const context = await studio.browser.newContext({
         viewport: DESKTOP,
         // Nothing plays by itself, unless the test is about that.
