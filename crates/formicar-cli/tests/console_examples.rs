@@ -3,6 +3,7 @@
 //! `FORMICAR_SLOW=1` also runs those that take more than some seconds; of these, and of those that
 //! need files of others, the flags are parsed otherwise.
 
+use crate::common::runs_slow_tests;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -27,7 +28,7 @@ enum Treatment {
 }
 
 /// The exceptions: what a command contains, its treatment and the reason.
-const EXCEPTIONS: [(&str, Treatment, &str); 22] = [
+const EXCEPTIONS: [(&str, Treatment, &str); 23] = [
     ("cargo ", Treatment::Skip, "what runs this test"),
     (
         "ompl_benchmark_statistics",
@@ -89,6 +90,11 @@ const EXCEPTIONS: [(&str, Treatment, &str); 22] = [
     ),
     ("formicar demo", Treatment::Flags, "tests/demo.rs runs it"),
     ("colony.n_ants=1000", Treatment::Slow, "a large colony"),
+    (
+        "--ants ants.gif",
+        Treatment::Slow,
+        "a film; tests/ants.rs makes another",
+    ),
     (
         "--vehicle forklift.toml",
         Treatment::Slow,
@@ -235,7 +241,7 @@ fn parse_flags(example: &Example, folder: &Path) {
 
 #[test]
 fn examples_do_what_their_pages_say() {
-    let runs_slow = std::env::var_os("FORMICAR_SLOW").is_some();
+    let runs_slow = runs_slow_tests();
     let mut n_run = 0;
     for page in pages() {
         let folder = tempfile::tempdir().unwrap();

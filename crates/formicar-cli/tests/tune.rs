@@ -14,7 +14,7 @@ const FLAGS: [&str; 21] = [
     "--range",
     "improve.shift_share=0..5",
     "--evaluations",
-    "30",
+    "12",
     "--sources",
     "4",
     "--seeds",
@@ -39,7 +39,7 @@ fn what_was_tuned_is_a_configuration_for_plan() {
     for part in [
         "# Tuning of formicar",
         "| `drive.beta` | 8.000 |",
-        "30 evaluations in",
+        "12 evaluations in",
         "## Held back: default against tuned",
         "| runs that found a path |",
     ] {

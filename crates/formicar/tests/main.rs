@@ -5,6 +5,15 @@
     reason = "helpers of tests may fail, say that they skip, and tell what they measured"
 )]
 
+/// One number for every run of the tests, another for the slow tier (`FORMICAR_SLOW=1`).
+fn quick_or_full<T>(quick: T, full: T) -> T {
+    if std::env::var_os("FORMICAR_SLOW").is_some() {
+        full
+    } else {
+        quick
+    }
+}
+
 mod answers;
 mod chords;
 mod collision;

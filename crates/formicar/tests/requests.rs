@@ -1,5 +1,6 @@
 //! Requests as users make them: several goals, via points in order, ground to avoid.
 
+use crate::quick_or_full;
 use formicar::collision::ObstacleMap;
 use formicar::geometry::{Point2, Pose2, angle_difference};
 use formicar::layers::SoftCosts;
@@ -55,7 +56,7 @@ const MOST_ABOVE_BEST: f64 = 1.5;
 #[test]
 fn of_several_goals_a_near_one_is_reached() {
     let mut n_compared = 0;
-    for seed in 0..6 {
+    for seed in 0..quick_or_full(3, 6) {
         let (map, pairs) = strewn(seed);
         let [(start, goal), (_, second), (_, third)] = pairs[..] else {
             continue;
@@ -89,7 +90,7 @@ fn of_several_goals_a_near_one_is_reached() {
         );
         n_compared += 1;
     }
-    assert!(n_compared >= 4, "{n_compared}");
+    assert!(n_compared >= quick_or_full(2, 4), "{n_compared}");
 }
 
 /// The second goal is nearer as the crow flies, the first along the ground.
@@ -173,7 +174,7 @@ fn via_points_are_passed_in_order() {
         for via in [via, with_heading, [via[1], via[0]]] {
             let mut request = Request::new(start, goal);
             request.via = via.to_vec();
-            request.budget_steps = Some(40_000);
+            request.budget_steps = Some(quick_or_full(10_000, 40_000));
             let Outcome::Found(plan) = drive(&map, &request) else {
                 continue;
             };
@@ -186,7 +187,7 @@ fn via_points_are_passed_in_order() {
             n_found += 1;
         }
     }
-    assert!(n_found >= 6, "{n_found}");
+    assert!(n_found >= quick_or_full(4, 6), "{n_found}");
 }
 
 #[test]
@@ -346,13 +347,11 @@ fn soft_costs_fail_no_search() {
     let request = Request::new(Pose2::new(1.5, 4.0, 0.0), Pose2::new(10.5, 4.0, FRAC_PI_2));
     let n_steps = found(drive(&map, &request)).n_steps;
     // Just as many steps as the search without them needs.
-    for budget in [None, Some(n_steps), Some(n_steps + 1)] {
-        let request = Request {
-            budget_steps: budget,
-            ..request.clone()
-        };
-        let mut planner = planner(&map, Vehicle::warehouse_amr(), PlannerName::HybridAstar)
-            .with_soft_costs(&costs);
-        found(planner.plan(&request, Seed(1), &mut ()).expect("a request"));
-    }
+    let request = Request {
+        budget_steps: Some(n_steps),
+        ..request
+    };
+    let mut planner =
+        planner(&map, Vehicle::warehouse_amr(), PlannerName::HybridAstar).with_soft_costs(&costs);
+    found(planner.plan(&request, Seed(1), &mut ()).expect("a request"));
 }

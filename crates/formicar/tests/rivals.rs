@@ -1,5 +1,6 @@
 //! The planners over cells on generated neighborhoods: how many of their ways cars can drive.
 
+use crate::quick_or_full;
 use formicar::evolution::EvolutionConfig;
 use formicar::map::generate::{NeighborhoodParameters, alley_neighborhood, free_pose_pairs};
 use formicar::numeric::Seed;
@@ -7,7 +8,6 @@ use formicar::planner::{EvolutionParameters, Outcome, Planner, PlannerConfig, Pl
 use formicar::scenario::{GoalHeading, Request, StartHeading};
 use formicar::vehicle::Vehicle;
 
-const N_MAPS: u64 = 3;
 const N_WAYS: usize = 8;
 
 /// What became of the requests.
@@ -22,7 +22,7 @@ struct Tally {
 
 fn tally(vehicle: &Vehicle, config: &PlannerConfig) -> Tally {
     let mut tally = Tally::default();
-    for seed in 0..N_MAPS {
+    for seed in 0..quick_or_full(1, 3) {
         let parameters = NeighborhoodParameters::default();
         let map = alley_neighborhood(&parameters, Seed(seed)).expect("a map");
         let planner = Planner::new(&map, vehicle.clone(), config.clone());

@@ -6,6 +6,11 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+/// Whether tests run in full, as in the slow tier.
+pub(crate) fn runs_slow_tests() -> bool {
+    std::env::var_os("FORMICAR_SLOW").is_some()
+}
+
 /// What a run printed, and its exit code.
 pub(crate) struct Run {
     pub(crate) code: i32,

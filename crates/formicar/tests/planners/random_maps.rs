@@ -1,6 +1,7 @@
 //! What planners find on random maps stands before a check that knows nothing of theirs.
 
 use super::{Case, plan_with};
+use crate::quick_or_full;
 use formicar::collision::{Body, Drive, ObstacleMap};
 use formicar::geometry::Point2;
 use formicar::map::generate::{ScatterParameters, free_pose_pairs, scattered_obstacles};
@@ -35,7 +36,7 @@ touches_nothing! {
 fn what_is_found_on_random_maps_touches_nothing(planner: PlannerName) {
     let vehicles = [Vehicle::warehouse_amr(), Vehicle::f1tenth()];
     let mut n_found = 0;
-    for seed in 0..12 {
+    for seed in 0..quick_or_full(6, 12) {
         let parameters = ScatterParameters {
             n_cols: 120,
             n_rows: 90,
@@ -61,7 +62,7 @@ fn what_is_found_on_random_maps_touches_nothing(planner: PlannerName) {
             }
         }
     }
-    assert!(n_found >= 10, "{n_found}");
+    assert!(n_found >= quick_or_full(5, 10), "{n_found}");
 }
 
 fn assert_untouched(case: &Case, plan: &Plan) {
