@@ -135,6 +135,20 @@ fn a_corridor_that_the_vehicle_fits_is_not_called_too_narrow() {
         "{}",
         failure.reason
     );
+    // The same in both gears, where the trolley has no room to turn.
+    let long = Vehicle::new(VehicleParameters {
+        width_m: Some(0.75),
+        rear_overhang_m: Some(0.9),
+        min_turning_radius_m: Some(3.0),
+        max_steer_deg: None,
+        max_steer_rad: None,
+        ..Vehicle::warehouse_amr().parameters().clone()
+    });
+    let turned = Request::new(Pose2::new(5.0, 0.6, 0.0), Pose2::new(3.0, 0.6, PI));
+    let failure = self::failure(&corridor(), long.expect("a vehicle"), &turned);
+    let reason = &failure.reason;
+    assert!(!reason.contains("allow reverse"), "{reason}");
+    assert!(reason.contains("step_radii"), "{reason}");
 }
 
 #[test]
