@@ -16,6 +16,7 @@ fuzz_target!(|bytes: &[u8]| {
     let name = NAMES[usize::from(*kind) % NAMES.len()];
     let options = ReadOptions {
         resolution_m: Some(0.1),
+        ..ReadOptions::default()
     };
     let Ok(map) = map_from_bytes(Path::new(name), bytes, &options) else {
         return;

@@ -7,7 +7,7 @@ use formicar::path::{CurvePath, Direction};
 use formicar::planner::{CertificateHashes, CertificateNumbers, PoseRecord, StoredPath};
 use formicar::scenario::Request;
 use formicar::validation::{
-    CURVATURE_TOLERANCE, FOREIGN_CURVATURE_SLACK, Report, Samples, judge, judge_path,
+    CURVATURE_TOLERANCE, FOREIGN_CURVATURE_SLACK, ReadSamples, Report, judge, judge_path,
 };
 use formicar::vehicle::{Motion, Vehicle};
 use serde::Serialize;
@@ -31,6 +31,10 @@ pub(crate) struct PathFile {
     /// The same points driven with the gears exchanged, where they may be.
     exchanged: Option<CurvePath>,
     pub(crate) source: Source,
+    /// What of the file was read, in words.
+    pub(crate) reading: String,
+    /// Advice for a reader who expected another reading.
+    pub(crate) hint: Option<&'static str>,
     pub(crate) sample_deviation_m: f64,
     request: Option<Request>,
     pub(crate) poses: Option<Vec<PoseRecord>>,
@@ -42,12 +46,14 @@ pub(crate) struct PathFile {
 pub(crate) fn read(path: &Path, vehicle: &Vehicle) -> Result<PathFile> {
     let text = files::read_document(path)?;
     let name = || path.display().to_string();
-    if text.trim_start().starts_with('{') {
+    if is_answer(&text) {
         let stored = StoredPath::from_json(&text).with_context(name)?;
         return Ok(PathFile {
             path: stored.path,
             exchanged: None,
             source: Source::Segments,
+            reading: "the segments of an answer".to_owned(),
+            hint: None,
             sample_deviation_m: 0.0,
             request: stored.request,
             poses: Some(stored.poses),
@@ -55,7 +61,11 @@ pub(crate) fn read(path: &Path, vehicle: &Vehicle) -> Result<PathFile> {
             numbers: stored.numbers,
         });
     }
-    let samples = Samples::from_csv(&text).with_context(name)?;
+    let ReadSamples {
+        samples,
+        reading,
+        hint,
+    } = ReadSamples::from_text(&text).with_context(name)?;
     let polyline = || Some(CurvePath::from_polyline(&samples.points));
     let (path, exchanged) = match (vehicle.motion(), &samples.headings) {
         (Motion::Point, _) => (polyline(), None),
@@ -72,12 +82,25 @@ pub(crate) fn read(path: &Path, vehicle: &Vehicle) -> Result<PathFile> {
             Some(_) => Source::Poses,
             None => Source::Points,
         },
+        reading,
+        hint,
         sample_deviation_m: samples.deviation_m(),
         request: None,
         poses: None,
         hashes: None,
         numbers: None,
     })
+}
+
+/// True for a JSON object other than a message of ROS, which has poses at its top.
+fn is_answer(text: &str) -> bool {
+    #[derive(serde::Deserialize)]
+    struct Top {
+        schema: Option<serde::de::IgnoredAny>,
+        poses: Option<serde::de::IgnoredAny>,
+    }
+    let is_message = |top: Top| top.schema.is_none() && top.poses.is_some();
+    text.trim_start().starts_with('{') && !serde_json::from_str(text).is_ok_and(is_message)
 }
 
 impl PathFile {

@@ -5,11 +5,14 @@ use crate::failure::Ending;
 use crate::scene::Scene;
 use anyhow::Result;
 use formicar::collision::ObstacleMap;
+use formicar::geometry::Pose2;
 use formicar::numeric::Seed;
 use formicar::planner::{
-    Answer, AnswerContext, Outcome, PlanError, Planner, PlannerConfig, RequestDocument, Timing,
+    Answer, AnswerContext, NotFound, Outcome, PlanError, Planner, PlannerConfig, RequestDocument,
+    Timing,
 };
-use formicar::progress::AntFrames;
+use formicar::progress::{AntFrames, Status};
+use formicar::scenario::Request;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -74,6 +77,17 @@ impl Session {
         let request = planned.as_ref().ok().cloned();
         let result = planned.and_then(|request| self.planner.plan(&request, seed, &mut watch));
         let clock = watch.clock;
+        let ground = &self.scene.ground;
+        let result = result.map_err(|error| match error {
+            PlanError::Scenario(error) => PlanError::Scenario(ground.named(error)),
+            error => error,
+        });
+        let result = result.map(|outcome| match (outcome, &request) {
+            (Outcome::NotFound(failure), Some(request)) => {
+                Outcome::NotFound(Box::new(self.with_advice(*failure, request)))
+            }
+            (outcome, _) => outcome,
+        });
         let timing = Timing {
             map_setup_s: self.map_setup_s,
             first_feasible_s: clock.first_feasible_s(),
@@ -87,6 +101,22 @@ impl Session {
             result,
             n_improvements: clock.n_improvements(),
         }
+    }
+
+    /// A failure with advice on unknown ground, where that is what separates.
+    fn with_advice(&self, mut failure: NotFound, request: &Request) -> NotFound {
+        let frame = self.obstacles.frame();
+        let cell = |pose: Pose2| frame.cell_at(pose.position());
+        if let (Status::NoPath, Some(from), Some(to)) =
+            (failure.status, cell(request.start), cell(request.goal))
+        {
+            let vehicle = &self.scene.vehicle.vehicle;
+            let ground = &self.scene.ground;
+            if let Some(hint) = ground.hint(&failure.explanation, vehicle, [from, to]) {
+                failure.reason = format!("{}; hint: {hint}", failure.reason);
+            }
+        }
+        failure
     }
 
     /// The part that all answers of this session share.

@@ -138,3 +138,112 @@ fn files_that_are_no_paths_are_refused() {
     room.run(&["check", "bytes", "--map", "room.yaml"])
         .assert_refused(&["bytes"]);
 }
+
+/// A straight drive along y = 4, with a header and a line for each x.
+fn along(header: &str, row: impl Fn(f64) -> String) -> String {
+    let rows = (0..7).map(|i| row(2.0 + 0.4 * f64::from(i)) + "\n");
+    format!("{header}\n{}", rows.collect::<String>())
+}
+
+#[test]
+fn headers_are_read_as_tools_write_them() {
+    let room = Room::new();
+    let cases = [
+        // A race line as `numpy.savetxt` writes it, its heading from the y axis.
+        (
+            along("# s_m; x_m; y_m; psi_rad; kappa_radpm", |x| {
+                format!("{:.4}; {x:.4}; 4.0000; -1.5708; 0.0000", x - 2.0)
+            }),
+            "psi_rad, in radians from the y axis",
+        ),
+        (
+            along("# x_m, y_m, w_tr_right_m, w_tr_left_m", |x| {
+                format!("{x}, 4.0, 1.1, 1.1")
+            }),
+            "x_m and y_m, no headings",
+        ),
+        (
+            along("x,y,z,qx,qy,qz,qw", |x| format!("{x},4,0,0,0,0,1")),
+            "quaternion",
+        ),
+        (
+            along("x,y,heading_deg", |x| format!("{x},4,720")),
+            "heading_deg, in degrees",
+        ),
+        (
+            along("", |x| format!("{x},4,6.2831853")),
+            "first three columns",
+        ),
+    ];
+    for (text, told) in cases {
+        room.write("theirs.csv", &text);
+        let run = room.run(&["check", "theirs.csv", "--map", "room.yaml"]);
+        assert_eq!(run.code, 0, "{text}{}{}", run.stdout, run.stderr);
+        assert!(run.stdout.contains(told), "{told}: {}", run.stdout);
+        let json = room.run(&["check", "theirs.csv", "--map", "room.yaml", "--json"]);
+        assert!(json.json()["reading"].as_str().unwrap().contains(told));
+    }
+}
+
+#[test]
+fn many_violations_are_summarized_unless_all_are_asked_for() {
+    let room = Room::new();
+    // Headings in degrees, read as radians: every curve is far too sharp.
+    room.write("jumps.csv", along("x,y,yaw", |y| format!("4,{y},90")));
+    let run = room.run(&["check", "jumps.csv", "--map", "room.yaml"]);
+    assert_eq!(run.code, 3, "{}", run.stdout);
+    let count = |text: &str| text.lines().filter(|l| l.starts_with("violation")).count();
+    assert!(run.stdout.contains(" times; first: "), "{}", run.stdout);
+    assert!(run.stdout.contains("worst: "), "{}", run.stdout);
+    assert!(run.stdout.contains("--all prints all"), "{}", run.stdout);
+    assert!(count(&run.stdout) <= 3, "{}", run.stdout);
+    assert!(
+        run.stdout.contains("hint       the headings follow"),
+        "{}",
+        run.stdout
+    );
+    let all = room.run(&["check", "jumps.csv", "--map", "room.yaml", "--all"]);
+    assert!(count(&all.stdout) > 4, "{}", all.stdout);
+}
+
+#[test]
+fn what_import_reads_check_reads() {
+    let room = Room::new();
+    let pose = |x: f64| {
+        format!(r#"{{"position": {{"x": {x}, "y": 4}}, "orientation": {{"z": 0, "w": 1}}}}"#)
+    };
+    let stamped = |x: f64| format!(r#"{{"header": {{}}, "pose": {}}}"#, pose(x));
+    let path = format!(r#"{{"poses": [{}, {}]}}"#, stamped(2.0), stamped(5.0));
+    let array = format!(r#"{{"poses": [{}, {}]}}"#, pose(2.0), pose(5.0));
+    let echo = "header:\n  frame_id: map\nposes:\n- pose:\n    position: {x: 2.0, y: 4.0, z: 0.0}\n    \
+                orientation: {x: 0.0, y: 0.0, z: 0.0, w: 1.0}\n- pose:\n    position: {x: 5.0, y: 4.0, \
+                z: 0.0}\n    orientation: {x: 0.0, y: 0.0, z: 0.0, w: 1.0}\n---\n";
+    for (name, text) in [
+        ("path.json", path.as_str()),
+        ("array.json", array.as_str()),
+        ("echo.yaml", echo),
+    ] {
+        room.write(name, text);
+        let run = room.run(&["check", name, "--map", "room.yaml", "--json"]);
+        assert_eq!(run.code, 0, "{name}: {}{}", run.stdout, run.stderr);
+        let checked = run.json();
+        assert_eq!(
+            (&checked["source"], &checked["length_m"]),
+            (&json!("poses"), &json!(3.0))
+        );
+    }
+}
+
+#[test]
+fn an_answer_that_lost_the_signs_of_zeros_is_of_the_same_path() {
+    let room = Room::new();
+    assert_eq!(room.plan(&["--out", "path.json"]).code, 0);
+    let text = room.read("path.json");
+    // As JavaScript writes it.
+    room.write(
+        "path.json",
+        text.replace(":-0.0,", ":0,").replace(":0.0,", ":0,"),
+    );
+    let run = room.run(&["check", "path.json", "--map", "room.yaml", "--json"]);
+    assert_eq!(run.json()["matches_record"]["path"], true, "{}", run.stdout);
+}

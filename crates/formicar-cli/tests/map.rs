@@ -199,3 +199,93 @@ fn no_way_is_exit_3_and_bad_ends_are_refused() {
     clearance("0.5", "0.5,0.5").assert_refused(&["X,Y"]);
     clearance("nan,0", "0.5,0.5").assert_refused(&["finite"]);
 }
+
+/// A hall whose middle nobody has seen, and a threshold that calls it free.
+fn unseen(room: &Room, free_thresh: &str) {
+    let mut image = b"P5\n60 40\n255\n".to_vec();
+    image.extend((0..60 * 40).map(|i| {
+        if (20..40).contains(&(i % 60)) {
+            205
+        } else {
+            254
+        }
+    }));
+    room.write("unseen.pgm", image);
+    let yaml = format!(
+        "image: unseen.pgm\nresolution: 0.2\norigin: [0, 0, 0]\nnegate: 0\n\
+         occupied_thresh: 0.65\nfree_thresh: {free_thresh}\n"
+    );
+    room.write("unseen.yaml", yaml);
+}
+
+#[test]
+fn never_seen_ground_that_a_threshold_frees_is_never_silent() {
+    let room = Room::new();
+    unseen(&room, "0.25");
+    let told = "800 cells are free by free_thresh 0.25 but have the grey 205";
+    let info = room.run(&["map", "info", "unseen.yaml"]);
+    assert!(
+        info.stdout.contains(&format!("warning     {told}")),
+        "{}",
+        info.stdout
+    );
+    let plan = |more: &[&str]| {
+        let words = [
+            "plan",
+            "--map",
+            "unseen.yaml",
+            "--start",
+            "2,4,0",
+            "--goal",
+            "10,4,0",
+        ];
+        room.run(&[&words[..], more].concat())
+    };
+    let out = plan(&["--json", "--out", "path.json"]);
+    assert!(out.stderr.contains(told), "{}", out.stderr);
+    let answer = out.json();
+    assert_eq!(answer["status"], "found");
+    for list in [
+        &answer["provenance"]["map"]["warnings"],
+        &answer["certificate"]["assumptions"],
+    ] {
+        assert!(list[0].as_str().unwrap().starts_with(told), "{list}");
+    }
+    let check = room.run(&["check", "path.json", "--map", "unseen.yaml", "--json"]);
+    assert_eq!(check.json()["certificate"], answer["certificate"]);
+    let grey = ["--unknown-grey", "205"];
+    let strict = plan(&[&grey[..], &["--json"]].concat());
+    assert_eq!((strict.code, strict.stderr.as_str()), (3, ""));
+    let reason = strict.json()["reason"].as_str().unwrap().to_owned();
+    assert!(
+        reason.contains("800 cells of the map are unknown"),
+        "{reason}"
+    );
+    assert!(reason.contains("--unknown free"), "{reason}");
+    let free = plan(&[&grey[..], &["--unknown", "free"]].concat());
+    assert_eq!(free.code, 0, "{}", free.stdout);
+    unseen(&room, "0.196");
+    let quiet = room.run(&["map", "info", "unseen.yaml"]);
+    assert!(!quiet.stdout.contains("warning"), "{}", quiet.stdout);
+    room.run(&["map", "info", "aco20", "--unknown-grey", "205"])
+        .assert_refused(&["--unknown-grey", "aco20"]);
+    room.write("m.txt", "0 0\n0 1\n");
+    room.run(&["map", "info", "m.txt", "--unknown-grey", "205"])
+        .assert_refused(&["m.txt", "no grey values"]);
+}
+
+#[test]
+fn bitmaps_are_maps() {
+    let room = Room::new();
+    let mut bytes =
+        b"BM\0\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\x02\0\0\0\x01\0\0\0\x01\0\x18\0".to_vec();
+    bytes.extend([0; 24]);
+    bytes.extend([254, 254, 254, 0, 0, 0, 0, 0]);
+    room.write("m.bmp", &bytes);
+    let info = room.run(&["map", "info", "m.bmp", "--resolution", "0.1", "--json"]);
+    let info = info.json();
+    assert_eq!(
+        (&info["n_free"], &info["n_occupied"]),
+        (&json!(1), &json!(1))
+    );
+}

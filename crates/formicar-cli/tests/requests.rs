@@ -193,5 +193,71 @@ fn a_budget_that_ends_after_a_path_was_found_tells_what_did_not_fit() {
 #[test]
 fn headings_that_nobody_can_turn_back_are_refused() {
     let room = Room::new();
-    near(&room, &["--goal", "4.5,2,1e16"]).assert_refused(&["heading", "1e6"]);
+    near(&room, &["--goal", "4.5,2,1e16"]).assert_refused(&["heading", "within a turn"]);
+}
+
+#[test]
+fn cells_that_block_are_called_by_their_kind() {
+    let room = Room::new();
+    let yard = ["--map", "room.yaml", "--goal", "4,2,0"];
+    let plan = |more: &[&str]| room.run(&[&["plan"], &yard[..], more].concat()).stderr;
+    let wall = plan(&["--start", "6.1,2,0"]);
+    assert!(
+        wall.contains("obstacle cell") && !wall.contains("--unknown"),
+        "{wall}"
+    );
+    let closed = plan(&[
+        "--start",
+        "2,2,0",
+        "--keep-out",
+        "1.5,1.5 2.5,1.5 2.5,2.5 1.5,2.5",
+    ]);
+    assert!(
+        closed.contains("keep-out cells") && !closed.contains("obstacle"),
+        "{closed}"
+    );
+    room.write(
+        "u.pgm",
+        [b"P5\n60 40\n255\n".as_slice(), &[205; 60 * 40]].concat(),
+    );
+    room.write(
+        "u.yaml",
+        room.read("room.yaml").replace("room.pgm", "u.pgm"),
+    );
+    let unknown = room.run(&[
+        "plan", "--map", "u.yaml", "--start", "2,2,0", "--goal", "4,2,0",
+    ]);
+    assert!(
+        unknown.stderr.contains("unknown cells"),
+        "{}",
+        unknown.stderr
+    );
+    assert!(
+        unknown.stderr.contains("--unknown free"),
+        "{}",
+        unknown.stderr
+    );
+}
+
+#[test]
+fn headings_in_degrees_are_refused_with_the_radians_at_every_door() {
+    let room = Room::new();
+    let run = near(&room, &["--goal", "4.5,2,90"]);
+    run.assert_refused(&["goal heading = 90", "1.5708"]);
+    let lines = "{\"id\": 4, \"goal\": [4.5, 2, 180]}\n{\"id\": 5, \"goal\": [4.5, 2,}\n";
+    let words = ["plan", "--map", "room.yaml", "--start", "2,2,0", "--stdin"];
+    let run = formicar_in(room.folder.path(), &words, lines);
+    let answers: Vec<Value> = run
+        .stdout
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    assert_eq!(
+        (&answers[0]["id"], &answers[1]["id"]),
+        (&json!(4), &json!(5))
+    );
+    let reason = answers[0]["reason"].as_str().unwrap();
+    assert!(reason.contains("180 degrees are 3.1416"), "{reason}");
+    room.write("room.yaml", room.read("room.yaml").replace("0.0]", "90]"));
+    near(&room, &["--goal", "4.5,2,0"]).assert_refused(&["room.yaml", "yaw", "1.5708"]);
 }

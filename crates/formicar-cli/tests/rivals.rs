@@ -309,7 +309,7 @@ fn files_that_are_none_are_refused_with_the_place() {
         (
             "b.json",
             "{\"poses\": [{}]}",
-            ["b.json", "nav_msgs/Path", "missing field `pose`"],
+            ["b.json", "nav_msgs/Path", "expected a pose"],
         ),
         (
             "c.log",

@@ -4,7 +4,7 @@ use crate::state::Studio;
 use axum::extract::{Request, State};
 use axum::http::header::{
     CACHE_CONTROL, CONTENT_SECURITY_POLICY, COOKIE, HOST, HeaderName, HeaderValue, ORIGIN,
-    REFERRER_POLICY, X_CONTENT_TYPE_OPTIONS, X_FRAME_OPTIONS,
+    REFERRER_POLICY, SET_COOKIE, X_CONTENT_TYPE_OPTIONS, X_FRAME_OPTIONS,
 };
 use axum::http::{HeaderMap, StatusCode, Uri};
 use axum::middleware::Next;
@@ -24,11 +24,15 @@ pub(crate) async fn guard(
     next: Next,
 ) -> Response {
     let token = studio.options.token.as_deref();
+    let cookie = token.and_then(|token| cookie(request.headers(), request.uri(), token));
     let mut response = match refusal(request.headers(), request.uri(), token) {
         Some((status, reason)) => (status, reason).into_response(),
         None => next.run(request).await,
     };
     let headers = response.headers_mut();
+    if let Some(cookie) = cookie {
+        headers.append(SET_COOKIE, cookie);
+    }
     let added: [(HeaderName, &'static str); 5] = [
         (CONTENT_SECURITY_POLICY, POLICY),
         (X_CONTENT_TYPE_OPTIONS, "nosniff"),
@@ -80,6 +84,28 @@ fn refusal(
     }
 }
 
+/// The cookie for a page whose address has the token: the page's own files, which its HTML names
+/// without one, are asked for with it.
+///
+/// Its name has the port, since all studios on a machine share their cookies.
+fn cookie(headers: &HeaderMap, uri: &Uri, token: &str) -> Option<HeaderValue> {
+    if !has_token(&HeaderMap::new(), uri, token) {
+        return None;
+    }
+    let host = headers.get(HOST).and_then(|host| host.to_str().ok())?;
+    let port = host.rsplit_once(':').map_or("", |(_, port)| port);
+    let port = port
+        .bytes()
+        .all(|byte| byte.is_ascii_digit())
+        .then_some(port);
+    let name = format!("{COOKIE_NAME}{}", port.unwrap_or_default());
+    let value = format!("{name}={token}; Path=/; HttpOnly; SameSite=Strict");
+    HeaderValue::try_from(value).ok()
+}
+
+/// The beginning of the cookie's name.
+const COOKIE_NAME: &str = "formicar_token";
+
 /// Whether a request has the token, in its address or as a cookie of the page.
 fn has_token(headers: &HeaderMap, uri: &Uri, token: &str) -> bool {
     let query = uri.query().unwrap_or_default().split('&');
@@ -88,7 +114,7 @@ fn has_token(headers: &HeaderMap, uri: &Uri, token: &str) -> bool {
     let cookies = cookies.flat_map(|cookies| cookies.split(';').map(str::trim));
     let given = query.chain(cookies).filter_map(|pair| pair.split_once('='));
     given
-        .filter(|(key, _)| *key == "token" || *key == "formicar_token")
+        .filter(|(key, _)| *key == "token" || key.starts_with(COOKIE_NAME))
         .any(|(_, given)| is_same(given.as_bytes(), token.as_bytes()))
 }
 
@@ -146,5 +172,33 @@ mod tests {
         assert_eq!(status(host, None, "/?token=0123456789abcdeg", token), 401);
         assert_eq!(status(host, None, "/ws?token=0123456789abcdef", token), 200);
         assert_eq!(status("localhost", None, "/", token), 401);
+    }
+
+    #[test]
+    fn the_page_gets_the_token_as_a_cookie() {
+        let token = "0123456789abcdef";
+        let set = |host: &str, uri: &str| {
+            let mut headers = HeaderMap::new();
+            headers.insert(HOST, host.parse().unwrap());
+            let cookie = cookie(&headers, &uri.parse().unwrap(), token)?;
+            Some(cookie.to_str().unwrap().to_owned())
+        };
+        let page = set("robot.local:8484", "/?token=0123456789abcdef").unwrap();
+        assert!(
+            page.starts_with("formicar_token8484=0123456789abcdef; "),
+            "{page}"
+        );
+        assert!(
+            page.contains("HttpOnly") && page.contains("SameSite=Strict"),
+            "{page}"
+        );
+        assert_eq!(set("robot.local:8484", "/?token=0123456789abcdeg"), None);
+        assert_eq!(set("robot.local:8484", "/"), None);
+        let mut headers = HeaderMap::new();
+        headers.insert(HOST, "robot.local:8484".parse().unwrap());
+        headers.insert(COOKIE, page.split(';').next().unwrap().parse().unwrap());
+        let uri: Uri = "/app.js".parse().unwrap();
+        assert_eq!(refusal(&headers, &uri, Some(token)), None);
+        assert!(refusal(&headers, &uri, Some("0123456789abcdeg")).is_some());
     }
 }

@@ -16,6 +16,8 @@ pub(crate) struct OpenMap {
     /// The hash that opens it again; none for a built-in map.
     pub(crate) hash: Option<String>,
     pub(crate) grid: OccupancyGrid,
+    /// Doubts about the file that it was read from.
+    pub(crate) warnings: Vec<String>,
     /// The same map, prepared for queries.
     pub(crate) obstacles: Arc<ObstacleMap>,
     pub(crate) builtin: Option<&'static BuiltinMap>,
@@ -27,6 +29,7 @@ impl OpenMap {
         Self {
             hash: builtin.is_none().then(|| hash(&grid)),
             name,
+            warnings: Vec::new(),
             obstacles: Arc::new(ObstacleMap::new(&decided)),
             grid,
             builtin,
@@ -114,6 +117,19 @@ impl MapStore {
     /// # Errors
     /// More cells than a map may have.
     pub(crate) fn keep(&self, name: &str, grid: OccupancyGrid) -> Result<Arc<OpenMap>, String> {
+        self.keep_file(name, grid, Vec::new())
+    }
+
+    /// The same with doubts about the file.
+    ///
+    /// # Errors
+    /// More cells than a map may have.
+    pub(crate) fn keep_file(
+        &self,
+        name: &str,
+        grid: OccupancyGrid,
+        warnings: Vec<String>,
+    ) -> Result<Arc<OpenMap>, String> {
         let n_cells = grid.frame().n_cells();
         let max_cells = self.limits.max_cells;
         if n_cells > max_cells {
@@ -121,7 +137,10 @@ impl MapStore {
                 "{name}: {n_cells} cells, at most {max_cells} here; hint: coarser cells or a part of the map, or start the studio with --max-cells"
             ));
         }
-        let map = Arc::new(OpenMap::new(name.to_owned(), grid, None));
+        let map = Arc::new(OpenMap {
+            warnings,
+            ..OpenMap::new(name.to_owned(), grid, None)
+        });
         let mut kept = self.lock();
         kept.retain(|other| other.hash != map.hash);
         kept.push_back(map.clone());

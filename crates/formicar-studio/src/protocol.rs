@@ -218,12 +218,13 @@ pub(crate) enum ServerMessage<'a> {
     Answer {
         plan: u64,
         slot: Slot,
-        answer: &'a Answer,
         history: &'a [IterationRecord],
         stages: StagesRecord,
         tightest: Option<Tightest>,
         cli: String,
         toml: String,
+        /// The last field: the page cuts its text out of the message, to save it as it was sent.
+        answer: &'a Answer,
     },
     /// A newer plan of the slot was ordered before this one began.
     Dropped {

@@ -94,13 +94,14 @@ async fn post_map(State(studio): State<Arc<Studio>>, form: Multipart) -> Respons
     };
     let max_cells = studio.options.limits.max_cells;
     let kept = tokio::task::spawn_blocking(move || {
-        let (name, grid) = upload::map(&files, resolution_m, max_cells)?;
-        studio.maps.keep(&name, grid)
+        let (name, map) = upload::map(&files, resolution_m, max_cells)?;
+        let warnings = map.warnings.iter().map(ToString::to_string).collect();
+        studio.maps.keep_file(&name, map.grid, warnings)
     });
     match kept.await {
         Ok(Ok(map)) => json_response(
             StatusCode::OK,
-            &json!({ "hash": map.hash, "name": map.name }),
+            &json!({ "hash": map.hash, "name": map.name, "warnings": map.warnings }),
         ),
         Ok(Err(reason)) => refused(reason),
         Err(_) => refused("reading the map failed; please report the file".to_owned()),

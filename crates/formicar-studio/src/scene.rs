@@ -96,6 +96,7 @@ impl Scene {
         MapRecord {
             name: self.opened.name.clone(),
             unknown: "occupied".to_owned(),
+            warnings: self.opened.warnings.clone(),
             ..MapRecord::default()
         }
     }

@@ -1,8 +1,7 @@
 //! Maps from uploaded files.
 
 use axum::body::Bytes;
-use formicar::map::OccupancyGrid;
-use formicar::map::format::{GreyImage, ReadOptions, RosMapDescription, map_from_bytes};
+use formicar::map::format::{GreyImage, MapFile, ReadOptions, RosMapDescription};
 use std::path::Path;
 
 /// An uploaded file.
@@ -27,11 +26,11 @@ pub(crate) fn map(
     files: &[Upload],
     resolution_m: Option<f64>,
     max_cells: usize,
-) -> Result<(String, OccupancyGrid), String> {
+) -> Result<(String, MapFile), String> {
     let yaml = files
         .iter()
         .find(|file| file.has_extension(&["yaml", "yml"]));
-    let (file, grid) = match (yaml, files) {
+    let (file, map) = match (yaml, files) {
         (Some(yaml), _) => (yaml, ros(yaml, files, max_cells)?),
         (None, [file]) => (file, alone(file, resolution_m, max_cells)?),
         (None, []) => return Err("no file was uploaded; hint: drop a map on the page".to_owned()),
@@ -42,10 +41,10 @@ pub(crate) fn map(
             ));
         }
     };
-    Ok((file.name.clone(), grid))
+    Ok((file.name.clone(), map))
 }
 
-fn ros(yaml: &Upload, files: &[Upload], max_cells: usize) -> Result<OccupancyGrid, String> {
+fn ros(yaml: &Upload, files: &[Upload], max_cells: usize) -> Result<MapFile, String> {
     let failed = |error: &dyn std::fmt::Display| format!("{}: {error}", yaml.name);
     let text = std::str::from_utf8(&yaml.bytes).map_err(|error| failed(&error))?;
     let description = RosMapDescription::from_yaml(text).map_err(|error| failed(&error))?;
@@ -61,17 +60,17 @@ fn ros(yaml: &Upload, files: &[Upload], max_cells: usize) -> Result<OccupancyGri
     })?;
     check_png(image, max_cells)?;
     let pixels = GreyImage::from_bytes(&image.bytes).map_err(|e| format!("{}: {e}", image.name))?;
-    description.to_grid(&pixels).map_err(|error| failed(&error))
+    let map = description.to_map_file(&pixels, None);
+    map.map_err(|error| failed(&error))
 }
 
-fn alone(
-    file: &Upload,
-    resolution_m: Option<f64>,
-    max_cells: usize,
-) -> Result<OccupancyGrid, String> {
+fn alone(file: &Upload, resolution_m: Option<f64>, max_cells: usize) -> Result<MapFile, String> {
     check_png(file, max_cells)?;
-    let options = ReadOptions { resolution_m };
-    map_from_bytes(Path::new(&file.name), &file.bytes, &options).map_err(|e| e.to_string())
+    let options = ReadOptions {
+        resolution_m,
+        ..ReadOptions::default()
+    };
+    MapFile::from_bytes(Path::new(&file.name), &file.bytes, &options).map_err(|e| e.to_string())
 }
 
 /// Refuses an image with too many pixels before it is decompressed.
@@ -97,6 +96,7 @@ fn check_png(file: &Upload, max_cells: usize) -> Result<(), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use formicar::map::OccupancyGrid;
     use formicar::map::format::ros_png;
 
     const YAML: &str = "image: maps/yard.png\nresolution: 0.5\norigin: [1, 2, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
@@ -115,7 +115,8 @@ mod tests {
     #[test]
     fn a_ros_map_comes_as_two_files() {
         let both = [file("yard.png", yard()), file("yard.yaml", YAML)];
-        let (name, grid) = map(&both, None, 100).unwrap();
+        let (name, read) = map(&both, None, 100).unwrap();
+        let grid = read.grid;
         assert_eq!(
             (name.as_str(), grid.frame().resolution_m()),
             ("yard.yaml", 0.5)
@@ -126,10 +127,28 @@ mod tests {
     }
 
     #[test]
+    fn doubts_about_a_file_are_told() {
+        let yaml = YAML
+            .replace("0.196", "0.25")
+            .replace("yard.png", "yard.pgm");
+        let both = [
+            file("yard.pgm", "P5 2 1 255 \u{5d}a"),
+            file("yard.yaml", yaml.clone()),
+        ];
+        assert_eq!(map(&both, None, 100).unwrap().1.warnings, []);
+        let unknown = [b"P5 2 1 255 ".as_slice(), &[205, 254]].concat();
+        let both = [file("yard.pgm", unknown), file("yard.yaml", yaml)];
+        assert_eq!(map(&both, None, 100).unwrap().1.warnings.len(), 1);
+    }
+
+    #[test]
     fn images_need_a_resolution_and_must_not_be_too_large() {
         let image = [file("yard.png", yard())];
         assert!(map(&image, None, 100).unwrap_err().contains("resolution"));
-        assert_eq!(map(&image, Some(0.1), 100).unwrap().1.frame().n_cols(), 3);
+        assert_eq!(
+            map(&image, Some(0.1), 100).unwrap().1.grid.frame().n_cols(),
+            3
+        );
         assert!(map(&image, Some(0.1), 5).unwrap_err().contains("3 x 2"));
     }
 

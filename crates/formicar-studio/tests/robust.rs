@@ -66,6 +66,18 @@ fn others_than_this_machine_need_a_token() {
     let at = SocketAddr::new(Ipv4Addr::LOCALHOST.into(), at.port());
     assert!(get(at, "/api/catalog").starts_with("HTTP/1.1 401"));
     assert!(get(at, "/api/catalog?token=0123456789abcdef").starts_with("HTTP/1.1 200"));
+    // The page asks for its own files with the cookie that came with it.
+    let page = get(at, "/?token=0123456789abcdef");
+    let (_, cookie) = page.split_once("set-cookie: ").expect("a cookie");
+    let cookie = cookie.split(';').next().unwrap_or_default();
+    for path in ["/app.js", "/app.css"] {
+        let with = |cookie: &str| {
+            let head = format!("GET {path} HTTP/1.1\r\nHost: {at}\r\n{cookie}");
+            http(at, format!("{head}Connection: close\r\n\r\n").as_bytes())
+        };
+        assert!(with(&format!("Cookie: {cookie}\r\n")).starts_with("HTTP/1.1 200"));
+        assert!(with("").starts_with("HTTP/1.1 401"));
+    }
 }
 
 /// A form with one file, and perhaps a resolution.

@@ -1,6 +1,6 @@
 //! Failures that explain themselves: what collides, what lies apart, what is too narrow.
 
-use formicar::collision::ObstacleMap;
+use formicar::collision::{Body, Drive, ObstacleMap};
 use formicar::geometry::{Arc, Point2, Pose2};
 use formicar::map::generate::{ScatterParameters, free_pose_pairs, scattered_obstacles};
 use formicar::map::{Cell, OccupancyGrid};
@@ -135,6 +135,20 @@ fn a_corridor_that_the_vehicle_fits_is_not_called_too_narrow() {
         "{}",
         failure.reason
     );
+    // The same in both gears, where the trolley has no room to turn.
+    let long = Vehicle::new(VehicleParameters {
+        width_m: Some(0.75),
+        rear_overhang_m: Some(0.9),
+        min_turning_radius_m: Some(3.0),
+        max_steer_deg: None,
+        max_steer_rad: None,
+        ..Vehicle::warehouse_amr().parameters().clone()
+    });
+    let turned = Request::new(Pose2::new(5.0, 0.6, 0.0), Pose2::new(3.0, 0.6, PI));
+    let failure = self::failure(&corridor(), long.expect("a vehicle"), &turned);
+    let reason = &failure.reason;
+    assert!(!reason.contains("allow reverse"), "{reason}");
+    assert!(reason.contains("step_radii"), "{reason}");
 }
 
 #[test]
@@ -296,4 +310,152 @@ fn nothing_that_can_be_driven_is_refused_as_sealed_off() {
         }
     }
     assert!(length_m > 50.0, "{length_m} m");
+}
+
+/// Vehicles of every kind: no body, hardly a body, wide bodies, the axle on the rim of the body and
+/// outside it.
+fn vehicles_of_every_kind() -> Vec<Vehicle> {
+    let of_footprint = |text: &str| {
+        let footprint = formicar::vehicle::FootprintSpec::RosString(text.to_owned());
+        Vehicle::new(VehicleParameters {
+            footprint: Some(footprint),
+            min_turning_radius_m: Some(0.3),
+            ..VehicleParameters::default()
+        })
+        .expect("a footprint")
+    };
+    vec![
+        Vehicle::point(),
+        Vehicle::f1tenth(),
+        Vehicle::warehouse_amr(),
+        Vehicle::warehouse_amr()
+            .with_safety_margin(0.3)
+            .expect("a margin"),
+        of_footprint("[[-0.3,-0.001],[0.3,-0.001],[0.3,0.001],[-0.3,0.001]]"),
+        of_footprint("[[0,0],[0.4,-0.1],[0.4,0.1]]"),
+        of_footprint("[[-0.2,0],[0.1,-0.2],[0.1,0.2]]"),
+        of_footprint("[[0.2,-0.1],[0.5,-0.1],[0.5,0.1],[0.2,0.1]]"),
+    ]
+}
+
+/// Where a body that may also turn on the spot and slide gets to from a pose, in steps of a third
+/// of a cell and eighths of a turn: at least where a car gets to with such poses.
+struct Flood {
+    reached: Vec<bool>,
+    n_cols: usize,
+}
+
+impl Flood {
+    const FINE: usize = 3;
+    const TURNS: usize = 8;
+
+    fn pose(n_cols: usize, map: &ObstacleMap, at: usize) -> Pose2 {
+        let (place, turn) = (at / Self::TURNS, at % Self::TURNS);
+        let step_m = map.frame().resolution_m() / Self::FINE as f64;
+        let along = |n: usize| (n as f64 + 0.5) * step_m;
+        let heading = turn as f64 * 2.0 * PI / Self::TURNS as f64;
+        Pose2::new(along(place % n_cols), along(place / n_cols), heading)
+    }
+
+    fn from(map: &ObstacleMap, vehicle: &Vehicle, start: usize) -> Self {
+        let body = Body::new(vehicle);
+        let n_cols = map.frame().n_cols() * Self::FINE;
+        let n = n_cols * map.frame().n_rows() * Self::FINE * Self::TURNS;
+        let is_free = |at: usize| {
+            let pose = map.frame().to_grid(Self::pose(n_cols, map, at));
+            map.is_free(&body, &Drive::at(pose))
+        };
+        let mut reached = vec![false; n];
+        let mut stack = vec![start];
+        while let Some(at) = stack.pop() {
+            if reached[at] || !is_free(at) {
+                continue;
+            }
+            reached[at] = true;
+            let (place, turn) = (at / Self::TURNS, at % Self::TURNS);
+            let turned = [1, Self::TURNS - 1].map(|by| (turn + by) % Self::TURNS);
+            stack.extend(turned.map(|turn| place * Self::TURNS + turn));
+            let (col, row) = (place % n_cols, place / n_cols);
+            let sides = [(col > 0, 1), (row > 0, n_cols)];
+            stack.extend(
+                sides
+                    .into_iter()
+                    .filter(|(is_on, _)| *is_on)
+                    .map(|(_, by)| at - by * Self::TURNS),
+            );
+            let others = [(col + 1 < n_cols, 1), (true, n_cols)];
+            let next = others.into_iter().filter(|(is_on, _)| *is_on);
+            stack.extend(
+                next.map(|(_, by)| at + by * Self::TURNS)
+                    .filter(|&to| to < n),
+            );
+        }
+        Self { reached, n_cols }
+    }
+}
+
+fn is_refused_as_sealed_off(map: &OccupancyGrid, vehicle: &Vehicle, ends: [Pose2; 2]) -> bool {
+    let mut request = Request::new(ends[0], ends[1]);
+    request.budget_steps = Some(1);
+    let config = PlannerConfig::of(PlannerName::Astar);
+    let mut planner = Planner::new(map, vehicle.clone(), config).expect("valid parameters");
+    match planner.plan(&request, Seed(1), &mut ()).expect("a request") {
+        Outcome::NotFound(failure) => failure.explanation.disconnected.is_some(),
+        Outcome::Found(_) => false,
+    }
+}
+
+/// Where a flood of free poses gets to, no vehicle is told that no way leads there.
+#[test]
+fn no_vehicle_of_any_kind_is_refused_where_a_flood_gets_to() {
+    let mut n_asked = vec![0; vehicles_of_every_kind().len()];
+    for seed in 0..12 {
+        let parameters = ScatterParameters {
+            n_cols: 24,
+            n_rows: 18,
+            resolution_m: [0.11, 0.23, 0.5][seed as usize % 3],
+            density: [0.05, 0.2][seed as usize % 2],
+            ..ScatterParameters::default()
+        };
+        let map = scattered_obstacles(&parameters, Seed(seed)).expect("valid parameters");
+        let obstacles = ObstacleMap::new(&map);
+        for (kind, vehicle) in vehicles_of_every_kind().iter().enumerate() {
+            let body = Body::new(vehicle);
+            let n = 24 * 18 * (Flood::FINE * Flood::FINE * Flood::TURNS) as u64;
+            let mut draw = Seed(seed).stream([1, kind as u64]);
+            let pose = |at| Flood::pose(24 * Flood::FINE, &obstacles, at);
+            let is_free = |&at: &usize| obstacles.is_free(&body, &Drive::at(pose(at)));
+            let draws = (0..200).map(|_| (draw.next_u64() % n) as usize);
+            let Some(start) = draws.into_iter().find(is_free) else {
+                continue;
+            };
+            let flood = Flood::from(&obstacles, vehicle, start);
+            assert_eq!(flood.n_cols, 72);
+            let there: Vec<_> = (0..n as usize).filter(|&at| flood.reached[at]).collect();
+            for goal in there.iter().step_by(there.len() / 8 + 1) {
+                let ends = [pose(start), pose(*goal)];
+                let refused = is_refused_as_sealed_off(&map, vehicle, ends);
+                assert!(!refused, "seed {seed}, vehicle {kind}: {ends:?}");
+                n_asked[kind] += 1;
+            }
+        }
+    }
+    assert!(n_asked.iter().all(|&n| n >= 20), "{n_asked:?}");
+}
+
+/// No place is walled in only because the nearest obstacle is farther away than distances are
+/// told apart.
+#[test]
+fn no_vehicle_is_refused_far_from_all_obstacles() {
+    let mut rows = vec![".".repeat(200); 200];
+    rows[199].replace_range(0..1, "#");
+    let rows: Vec<&str> = rows.iter().map(String::as_str).collect();
+    let map = OccupancyGrid::from_rows(&rows, 0.05).expect("rows");
+    for (kind, vehicle) in vehicles_of_every_kind().iter().enumerate() {
+        let [near, far] = [Pose2::new(1.5, 1.5, 0.0), Pose2::new(8.0, 8.0, 0.0)];
+        for ends in [[near, far], [far, near]] {
+            let refused = is_refused_as_sealed_off(&map, vehicle, ends);
+            assert!(!refused, "vehicle {kind}");
+        }
+    }
 }

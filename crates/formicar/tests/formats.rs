@@ -54,7 +54,14 @@ fn reads_ros_maps_by_others() {
         let error = read_map(&path, &ReadOptions::default()).unwrap_err();
         assert!(error.to_string().contains("the resolution is missing"));
         let resolution_m = Some(0.2);
-        let grid = read_map(&path, &ReadOptions { resolution_m }).unwrap();
+        let grid = read_map(
+            &path,
+            &ReadOptions {
+                resolution_m,
+                ..ReadOptions::default()
+            },
+        )
+        .unwrap();
         assert_eq!(grid.frame().resolution_m(), 0.2);
     }
 }
@@ -137,8 +144,8 @@ fn grids(values: &'static [i8]) -> impl Strategy<Value = OccupancyGrid> {
     frames.prop_flat_map(move |(n_cols, n_rows, resolution_m, (x, y, yaw))| {
         let origin = Pose2::new(
             f64::from(x) / 7.0,
-            f64::from(y) * 1e9,
-            f64::from(yaw) / 999.0,
+            f64::from(y) * 3e4,
+            f64::from(yaw) / 5300.0,
         );
         let frame = GridFrame::new(n_cols, n_rows, resolution_m, origin).unwrap();
         let cells = prop::collection::vec(prop::sample::select(values), n_cols * n_rows);

@@ -2,7 +2,7 @@
 
 use crate::failure::{Ending, Failure};
 use crate::path_file::{self, PathFile, Source};
-use crate::scene::{self, SceneArgs};
+use crate::scene::{self, Scene, SceneArgs};
 use crate::summary::{clearance, curvature};
 use clap::{Args, ValueHint};
 use formicar::collision::ObstacleMap;
@@ -10,7 +10,7 @@ use formicar::geometry::wrap_angle;
 use formicar::numeric::counted;
 use formicar::path::{CurvePath, Direction, PathPose};
 use formicar::planner::{CertificateNumbers, POSE_SPACING_M, PoseRecord};
-use formicar::validation::Report;
+use formicar::validation::{Report, Violation, path_hash_with_signs};
 use formicar::vehicle::Vehicle;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -19,8 +19,8 @@ use std::path::PathBuf;
 /// Flags of `check`.
 #[derive(Args, Debug)]
 pub(crate) struct CheckArgs {
-    /// The path: an answer of `plan` (.json), or a CSV of x, y[, heading] in meters and radians;
-    /// `-` reads it from stdin.
+    /// The path: an answer of `plan` (.json), a CSV of x, y[, heading] in meters and radians or
+    /// with named columns, or a nav_msgs/Path as JSON or YAML; `-` reads it from stdin.
     #[arg(value_name = "PATH", value_hint = ValueHint::FilePath)]
     path: PathBuf,
 
@@ -30,6 +30,10 @@ pub(crate) struct CheckArgs {
     /// Print the report as one JSON object.
     #[arg(long)]
     json: bool,
+
+    /// Print every violation instead of the first and the worst of each kind.
+    #[arg(long)]
+    all: bool,
 }
 
 /// The document that `check --json` prints.
@@ -39,6 +43,10 @@ struct Checked {
     valid: bool,
     /// The kind of the path file.
     source: Source,
+    /// What of the file was read, in words.
+    reading: String,
+    #[serde(skip)]
+    hint: Option<&'static str>,
     /// Share by which the curvature may exceed the vehicle's limit.
     curvature_slack: f64,
     /// Largest distance between the judged path and the samples, which are rounded.
@@ -69,12 +77,12 @@ pub(crate) fn run(args: &CheckArgs, out: &mut impl Write) -> Result<Ending, Fail
     let scene = scene::load(&args.scene)?;
     let vehicle = &scene.vehicle.vehicle;
     let file = path_file::read(&args.path, vehicle)?;
-    let checked = check(&file, &ObstacleMap::new(&scene.map), vehicle);
+    let checked = check(&file, &scene);
     if args.json {
         serde_json::to_writer(&mut *out, &checked).map_err(io::Error::from)?;
         writeln!(out)?;
     } else {
-        explain(&checked, vehicle, out)?;
+        explain(&checked, vehicle, args, out)?;
     }
     Ok(if checked.valid {
         Ending::Done
@@ -83,12 +91,15 @@ pub(crate) fn run(args: &CheckArgs, out: &mut impl Write) -> Result<Ending, Fail
     })
 }
 
-fn check(file: &PathFile, obstacles: &ObstacleMap, vehicle: &Vehicle) -> Checked {
-    let (path, report) = file.judged(obstacles, vehicle);
+fn check(file: &PathFile, scene: &Scene) -> Checked {
+    let vehicle = &scene.vehicle.vehicle;
+    let (path, report) = file.judged(&ObstacleMap::new(&scene.map), vehicle);
+    let report = report.assuming(&scene.record.warnings);
     let matches_record = file.hashes.as_ref().map(|record| Matches {
         map: record.map_hash == report.map_hash,
         vehicle: record.vehicle_hash == report.vehicle_hash,
-        path: record.path_hash == report.path_hash,
+        path: record.path_hash == report.path_hash
+            || record.path_hash == path_hash_with_signs(path),
         numbers: file.numbers.is_some_and(|n| are_numbers_of(n, &report)),
     });
     // Only a valid path is short enough to be sampled.
@@ -100,6 +111,8 @@ fn check(file: &PathFile, obstacles: &ObstacleMap, vehicle: &Vehicle) -> Checked
         schema: "formicar/check/1",
         valid: report.valid && poses_on_segments != Some(false),
         source: file.source,
+        reading: file.reading.clone(),
+        hint: file.hint,
         curvature_slack: file.curvature_slack(),
         sample_deviation_m: file.sample_deviation_m,
         first_gear: first_gear(path),
@@ -144,7 +157,12 @@ fn first_gear(path: &CurvePath) -> Direction {
         .map_or_else(Direction::default, |s| s.direction)
 }
 
-fn explain(checked: &Checked, vehicle: &Vehicle, out: &mut impl Write) -> io::Result<()> {
+fn explain(
+    checked: &Checked,
+    vehicle: &Vehicle,
+    args: &CheckArgs,
+    out: &mut impl Write,
+) -> io::Result<()> {
     let report = &checked.certificate;
     writeln!(
         out,
@@ -155,23 +173,7 @@ fn explain(checked: &Checked, vehicle: &Vehicle, out: &mut impl Write) -> io::Re
         report.tightest_s_m,
         curvature(report.max_curvature_per_m, vehicle),
     )?;
-    let read_as = match checked.source {
-        Source::Segments => "as written".to_owned(),
-        Source::Poses => reconstructed("arcs and gears from poses", checked),
-        Source::Points => {
-            let gear = match checked.first_gear {
-                Direction::Forward => "forward",
-                Direction::Reverse => "in reverse",
-            };
-            let what = format!("headings and arcs from points, first {gear}");
-            reconstructed(&what, checked)
-        }
-    };
-    writeln!(
-        out,
-        "read       {}, {read_as}",
-        counted(checked.n_segments, "segment")
-    )?;
+    writeln!(out, "read       {}", reading(checked))?;
     if let Some(matches) = checked.matches_record {
         writeln!(out, "record     {}", matches.words())?;
     }
@@ -181,27 +183,93 @@ fn explain(checked: &Checked, vehicle: &Vehicle, out: &mut impl Write) -> io::Re
             "violation  the poses on record are not those of the segments; hint: plan again"
         )?;
     }
-    for violation in &report.violations {
-        writeln!(out, "violation  {}", violation.message)?;
+    if args.all {
+        for violation in &report.violations {
+            writeln!(out, "violation  {}", violation.message)?;
+        }
+    } else {
+        summarize(&report.violations, out)?;
     }
-    let is_coarse = checked.source == Source::Points && checked.sample_deviation_m > COARSE_M;
-    if !checked.valid && is_coarse {
-        writeln!(
-            out,
-            "hint       points this coarse do not determine the curvature; write headings or more decimals"
-        )?;
+    if !checked.valid
+        && let Some(hint) = checked.hint.or_else(|| coarse_hint(checked))
+    {
+        writeln!(out, "hint       {hint}")?;
     }
     Ok(())
 }
 
-/// Deviation above which bare points zigzag too much to determine the curvature, meters.
-const COARSE_M: f64 = 1e-4;
-
-fn reconstructed(what: &str, checked: &Checked) -> String {
+/// What was read, and how the curve between samples was made.
+fn reading(checked: &Checked) -> String {
+    let n_segments = counted(checked.n_segments, "segment");
+    let what = match checked.source {
+        Source::Segments => return format!("{n_segments}, as written"),
+        Source::Poses => "arcs and gears reconstructed".to_owned(),
+        Source::Points => {
+            let gear = match checked.first_gear {
+                Direction::Forward => "forward",
+                Direction::Reverse => "in reverse",
+            };
+            format!("headings and arcs reconstructed, first {gear}")
+        }
+    };
+    let reading = &checked.reading;
     let slack_percent = checked.curvature_slack * 100.0;
     let off_mm = checked.sample_deviation_m * 1e3;
-    format!("{what}, within {off_mm:.1} mm; the curvature limit has {slack_percent:.0} % of slack")
+    format!(
+        "{reading}; {n_segments}, {what}, within {off_mm:.1} mm; the curvature limit has {slack_percent:.0} % of slack"
+    )
 }
+
+/// Most violations of a kind that are printed without `--all`.
+const MAX_OF_A_KIND: usize = 3;
+
+/// The violations by kind, in the order of the first of each: all where they are few, otherwise
+/// the first, the worst and their number.
+fn summarize(violations: &[Violation], out: &mut impl Write) -> io::Result<()> {
+    let mut kinds = Vec::new();
+    for violation in violations {
+        if !kinds.contains(&violation.kind) {
+            kinds.push(violation.kind);
+        }
+    }
+    let mut is_cut = false;
+    for kind in kinds {
+        let of_kind = violations.iter().filter(|violation| violation.kind == kind);
+        let of_kind: Vec<_> = of_kind.collect();
+        if of_kind.len() <= MAX_OF_A_KIND {
+            for violation in of_kind {
+                writeln!(out, "violation  {}", violation.message)?;
+            }
+            continue;
+        }
+        is_cut = true;
+        let by_excess = |a: &&&Violation, b: &&&Violation| a.excess().total_cmp(&b.excess());
+        let (n, name) = (of_kind.len(), kind.in_words());
+        writeln!(
+            out,
+            "violation  {name}, {n} times; first: {}",
+            of_kind[0].message
+        )?;
+        if let Some(worst) = of_kind.iter().max_by(by_excess) {
+            writeln!(out, "           worst: {}", worst.message)?;
+        }
+    }
+    if is_cut {
+        writeln!(out, "           --all prints all {}", violations.len())?;
+    }
+    Ok(())
+}
+
+/// Advice on points that do not determine a curvature.
+fn coarse_hint(checked: &Checked) -> Option<&'static str> {
+    let is_coarse = checked.source == Source::Points && checked.sample_deviation_m > COARSE_M;
+    is_coarse.then_some(
+        "points this coarse do not determine the curvature; write headings or more decimals",
+    )
+}
+
+/// Deviation above which bare points zigzag too much to determine the curvature, meters.
+const COARSE_M: f64 = 1e-4;
 
 impl Matches {
     fn words(self) -> String {

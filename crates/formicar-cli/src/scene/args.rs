@@ -34,6 +34,11 @@ pub(crate) struct SceneArgs {
           value_parser = values::word::<UnknownPolicy>(&["free", "occupied"]))]
     pub(crate) unknown: UnknownPolicy,
 
+    /// Take a grey value (0 to 255) of the map's image as unknown, whatever its thresholds say;
+    /// map savers write 205.
+    #[arg(long, value_name = "GREY")]
+    pub(crate) unknown_grey: Option<u8>,
+
     /// Keep-out area: "x,y x,y x,y" or [[x, y], ...]; may be repeated.
     #[arg(long, value_name = "POLYGON", value_parser = parse_polygon, allow_hyphen_values = true)]
     pub(crate) keep_out: Vec<Polygon>,

@@ -1,22 +1,24 @@
 //! The scene of a command: a map, a vehicle, and the start and goal that come with them.
 
 mod args;
+mod ground;
 mod scenario_file;
 mod vehicle;
 
 pub(crate) use args::SceneArgs;
-pub(crate) use scenario_file::ScenarioFile;
+pub(crate) use ground::Ground;
+pub(crate) use scenario_file::{Loaded, ScenarioFile};
 #[cfg(feature = "lab")]
 pub(crate) use vehicle::by_name as vehicle;
 
+use crate::failure::note;
 use anyhow::{Result, bail};
 use args::Polygon;
 use formicar::geometry::Pose2;
 use formicar::map::builtin::BuiltinMap;
-use formicar::map::format::{ReadOptions, read_map};
+use formicar::map::format::{MapFile, ReadOptions};
 use formicar::map::{OCCUPIED, OccupancyGrid, UnknownPolicy};
 use formicar::planner::MapRecord;
-use scenario_file::Loaded;
 use std::path::Path;
 use vehicle::NamedVehicle;
 
@@ -28,6 +30,8 @@ const DEFAULT_VEHICLE: &str = "warehouse_amr";
 pub(crate) struct Scene {
     /// The map; unknown cells are decided and keep-out areas filled.
     pub(crate) map: OccupancyGrid,
+    /// What blocks cells that are no obstacles.
+    pub(crate) ground: Ground,
     /// Where the map comes from and what the flags changed on it.
     pub(crate) record: MapRecord,
     /// The vehicle, with its margin.
@@ -46,6 +50,10 @@ pub(crate) fn load(args: &SceneArgs) -> Result<Scene> {
     if let Some(margin_m) = args.margin {
         vehicle.vehicle = vehicle.vehicle.with_safety_margin(margin_m)?;
     }
+    for warning in &loaded.warnings {
+        note(&format!("warning: {}: {warning}", loaded.name));
+    }
+    let ground = Ground::new(&loaded.map, args);
     let mut map = loaded.map.with_unknown(args.unknown);
     for area in &args.keep_out {
         map.fill_polygon(&area.0, OCCUPIED);
@@ -59,10 +67,12 @@ pub(crate) fn load(args: &SceneArgs) -> Result<Scene> {
         }
         .to_owned(),
         keep_out: args.keep_out.iter().map(corners).collect(),
+        warnings: loaded.warnings,
         ..MapRecord::default()
     };
     Ok(Scene {
         map,
+        ground,
         record,
         vehicle,
         ends: loaded.ends,
@@ -75,8 +85,8 @@ pub(crate) fn find(args: &SceneArgs) -> Result<Loaded> {
         (Some(name), None) if BuiltinMap::by_name(name).is_ok() => builtin(args, name),
         (Some(name), None) => file(args, name),
         (None, Some(path)) => match ScenarioFile::read(path)? {
-            ScenarioFile::Cars(cars) => cars.load(args.id.as_deref(), args.resolution),
-            ScenarioFile::Tpcap(case) if args.id.is_none() => case.load(args.resolution),
+            ScenarioFile::Cars(cars) => cars.load(args.id.as_deref(), &options(args)),
+            ScenarioFile::Tpcap(case) if args.id.is_none() => case.load(&options(args)),
             ScenarioFile::Tpcap(_) => bail!(
                 "--id: {} is one TPCAP case; hint: leave --id out",
                 path.display()
@@ -86,7 +96,18 @@ pub(crate) fn find(args: &SceneArgs) -> Result<Loaded> {
     }
 }
 
+/// The settings of a map file that the flags give.
+fn options(args: &SceneArgs) -> ReadOptions {
+    ReadOptions {
+        resolution_m: args.resolution,
+        unknown_grey: args.unknown_grey,
+    }
+}
+
 fn builtin(args: &SceneArgs, name: &str) -> Result<Loaded> {
+    if args.unknown_grey.is_some() {
+        bail!("--unknown-grey: the built-in map {name} has no grey values; hint: leave it out");
+    }
     if args.resolution.is_some() {
         bail!("--resolution: the built-in map {name} has its own; hint: leave the flag out");
     }
@@ -98,6 +119,7 @@ fn builtin(args: &SceneArgs, name: &str) -> Result<Loaded> {
     Ok(Loaded {
         name: name.to_owned(),
         map: builtin.grid(),
+        warnings: Vec::new(),
         vehicle: Some(vehicle::by_name(builtin.vehicle)?),
         ends: request.map(|request| [request.start, request.goal]),
     })
@@ -108,16 +130,15 @@ fn file(args: &SceneArgs, name: &str) -> Result<Loaded> {
         bail!("--request {id}: only built-in maps have requests; hint: --start and --goal");
     }
     let path = Path::new(name);
-    let options = ReadOptions {
-        resolution_m: args.resolution,
-    };
     if !path.exists() && path.extension().is_none() {
         // A bare word: most likely a misspelled built-in.
         BuiltinMap::by_name(name)?;
     }
+    let MapFile { grid, warnings } = MapFile::read(path, &options(args))?;
     Ok(Loaded {
         name: name.to_owned(),
-        map: read_map(path, &options)?,
+        map: grid,
+        warnings: warnings.iter().map(ToString::to_string).collect(),
         vehicle: None,
         ends: None,
     })

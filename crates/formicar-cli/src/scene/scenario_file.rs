@@ -4,7 +4,7 @@ use super::vehicle::NamedVehicle;
 use anyhow::{Context, Result, bail};
 use formicar::geometry::Pose2;
 use formicar::map::OccupancyGrid;
-use formicar::map::format::{CarScenario, ReadOptions, TpcapCase, read_car_scenarios, read_map};
+use formicar::map::format::{CarScenario, MapFile, ReadOptions, TpcapCase, read_car_scenarios};
 use formicar::vehicle::Vehicle;
 use std::path::{Path, PathBuf};
 
@@ -13,6 +13,8 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Loaded {
     pub(crate) name: String,
     pub(crate) map: OccupancyGrid,
+    /// Doubts about the file.
+    pub(crate) warnings: Vec<String>,
     pub(crate) vehicle: Option<NamedVehicle>,
     /// Start and goal.
     pub(crate) ends: Option<[Pose2; 2]>,
@@ -67,9 +69,14 @@ const TPCAP_RESOLUTION_M: f64 = 0.1;
 
 impl TpcapFile {
     /// Its map, vehicle, start and goal.
-    pub(crate) fn load(&self, resolution_m: Option<f64>) -> Result<Loaded> {
+    pub(crate) fn load(&self, options: &ReadOptions) -> Result<Loaded> {
+        if options.unknown_grey.is_some() {
+            bail!("--unknown-grey: a TPCAP case holds no grey values; hint: leave the flag out");
+        }
+        let resolution_m = options.resolution_m;
         Ok(Loaded {
             name: self.path.display().to_string(),
+            warnings: Vec::new(),
             map: self
                 .case
                 .rasterize(resolution_m.unwrap_or(TPCAP_RESOLUTION_M))?,
@@ -97,11 +104,13 @@ pub(crate) struct CarFile {
 
 impl CarFile {
     /// Map, vehicle, start and goal of one of them; the only one needs no id.
-    pub(crate) fn load(&self, id: Option<&str>, resolution_m: Option<f64>) -> Result<Loaded> {
+    pub(crate) fn load(&self, id: Option<&str>, options: &ReadOptions) -> Result<Loaded> {
         let scenario = self.find(id)?;
+        let MapFile { grid, warnings } = MapFile::read(&scenario.map, options)?;
         Ok(Loaded {
             name: scenario.map.display().to_string(),
-            map: read_map(&scenario.map, &ReadOptions { resolution_m })?,
+            map: grid,
+            warnings: warnings.iter().map(ToString::to_string).collect(),
             vehicle: Some(NamedVehicle {
                 name: scenario.id.clone(),
                 vehicle: Vehicle::new(scenario.vehicle.clone())?,

@@ -38,6 +38,27 @@ studio.scene("the path is saved as JSON and as CSV", {}, async (page) => {
   assert.ok(Math.hypot(x - answer.request.goal[0], y - answer.request.goal[1]) < 0.05);
 });
 
+studio.scene("a saved answer passes check, which hashes the path that the server sent", {}, async (page) => {
+  await certified(page);
+  // Along the axes, where zeros have either sign.
+  const answer = await openBuiltin(page, "narrow-junction");
+  assert.equal(answer.isCertified, true);
+  const json = await saved(page, "Answer, JSON");
+  const folder = await mkdtemp(join(tmpdir(), "formicar-e2e-"));
+  try {
+    const path = join(folder, "answer.json");
+    await writeFile(path, json.bytes);
+    const { vehicle } = JSON.parse(json.bytes.toString()).provenance;
+    const words = ["check", path, "--map", "narrow-junction", "--vehicle", vehicle.name, "--json"];
+    const { stdout } = await run(BINARY, words, { timeout: PATIENCE_MS, maxBuffer: 1 << 28 });
+    const { valid, matches_record } = JSON.parse(stdout);
+    assert.equal(valid, true);
+    assert.deepEqual(matches_record, { map: true, vehicle: true, path: true, numbers: true });
+  } finally {
+    await rm(folder, { recursive: true });
+  }
+});
+
 studio.scene("the picture is saved as SVG and as PNG", {}, async (page) => {
   await certified(page);
   const svg = await saved(page, "SVG");

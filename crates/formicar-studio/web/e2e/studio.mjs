@@ -32,9 +32,10 @@ const LOOK_EVERY_MS = 40;
 export const DESKTOP = { width: 1280, height: 720 };
 export const PHONE = { width: 390, height: 844 };
 
-/** Starts `formicar studio`. */
-export async function serve(port = 0) {
-  const server = spawn(BINARY, ["studio", "--port", String(port)], { stdio: ["ignore", "ignore", "pipe"] });
+/** Starts `formicar studio`, with more flags if there are any. */
+export async function serve(port = 0, flags = []) {
+  const words = ["studio", "--port", String(port), ...flags];
+  const server = spawn(BINARY, words, { stdio: ["ignore", "ignore", "pipe"] });
   const ended = new Promise((done) => server.once("exit", done));
   const url = await new Promise((ready, failed) => {
     let said = "";

@@ -49,9 +49,21 @@ export class Connection {
   }
 }
 
-function decode(data: string | ArrayBuffer): [ServerMessage, Uint8Array] {
-  if (typeof data === "string") return [JSON.parse(data) as ServerMessage, NOTHING];
+/** A message and its payload. Of an answer also the text as the server sent it: written anew, it
+ * would lose the sign of zeros. */
+export function decode(data: string | ArrayBuffer): [ServerMessage, Uint8Array] {
+  if (typeof data === "string") {
+    const message = JSON.parse(data) as ServerMessage;
+    if (message.type === "answer") message.text = lastField(data, "answer");
+    return [message, NOTHING];
+  }
   const length = new DataView(data).getUint32(0, true);
   const header = new TextDecoder().decode(new Uint8Array(data, 4, length));
   return [JSON.parse(header) as ServerMessage, new Uint8Array(data, 4 + length)];
+}
+
+/** The text of the last field of an object in JSON; its key appears nowhere before as a key. */
+function lastField(json: string, key: string): string {
+  const begin = `,"${key}":`;
+  return json.slice(json.indexOf(begin) + begin.length, -1);
 }

@@ -206,6 +206,7 @@ function refusal(plan: number, slot: Slot, side: SlotState, reason: string): Ans
     tightest: null,
     cli: "",
     toml: "",
+    text: JSON.stringify(answer),
   };
 }
 

@@ -246,7 +246,6 @@ export interface AnswerMessage {
   type: "answer";
   plan: number;
   slot: Slot;
-  answer: Answer;
   /** All iterations of a colony or population; empty without one. */
   history: IterationRecord[];
   stages: Stages;
@@ -255,6 +254,10 @@ export interface AnswerMessage {
   /** The same request for a terminal, and as a configuration file. */
   cli: string;
   toml: string;
+  /** The last field of the message. */
+  answer: Answer;
+  /** The answer's text as it was sent; the connection adds it. */
+  text: string;
 }
 
 /** A simulated drive. Angles in radians, positive to the left. */
@@ -347,4 +350,4 @@ export interface JsonSchema {
 
 /** `POST api/maps`, a form of files (`files`, a ROS YAML with its image, or one file) and, for
  * formats that leave it open, `resolution_m`: what to open, or a status of 4xx with this error. */
-export type UploadAnswer = { hash: string; name: string } | { error: string };
+export type UploadAnswer = { hash: string; name: string; warnings: string[] } | { error: string };

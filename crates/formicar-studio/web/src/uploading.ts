@@ -1,5 +1,6 @@
 /** Maps on their way to the server. */
 
+import { notify } from "./notice";
 import type { UploadAnswer } from "./protocol";
 import type { MapState } from "./store";
 import { withToken } from "./urls";
@@ -14,6 +15,7 @@ export async function uploadMap(files: File[], resolutionM?: number): Promise<st
   const response = await fetch(withToken("api/maps"), { method: "POST", body: form });
   const answer = (await response.json()) as UploadAnswer;
   if ("error" in answer) throw new Error(answer.error);
+  for (const warning of answer.warnings) notify(`${answer.name}: ${warning}`);
   return answer.hash;
 }
 

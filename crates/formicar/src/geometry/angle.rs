@@ -23,6 +23,24 @@ pub fn angle_difference(to: f64, from: f64) -> f64 {
     wrap_angle(to - from)
 }
 
+/// Norm of a quaternion below which it points nowhere.
+const MIN_NORM: f64 = 1e-6;
+
+/// The turn around the z axis of a quaternion `[x, y, z, w]`, which need not be of norm 1; none
+/// where it is no rotation.
+pub fn yaw_of_quaternion(quaternion: [f64; 4]) -> Option<f64> {
+    let norm = quaternion
+        .iter()
+        .map(|part| part * part)
+        .sum::<f64>()
+        .sqrt();
+    if !(MIN_NORM..=1.0 / MIN_NORM).contains(&norm) {
+        return None;
+    }
+    let [x, y, z, w] = quaternion.map(|part| part / norm);
+    Some((2.0 * (w * z + x * y)).atan2(1.0 - 2.0 * (y * y + z * z)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -14,7 +14,7 @@ mod pose;
 pub mod reeds_shepp;
 mod turning_circles;
 
-pub use angle::{angle_difference, wrap_angle};
+pub use angle::{angle_difference, wrap_angle, yaw_of_quaternion};
 pub use b_spline::BSpline;
 pub use biarc::flattest_biarc;
 pub use curve::{Arc, Curve};

@@ -176,10 +176,14 @@ impl ConvexPolygon {
     }
 
     /// The largest radius of a disc about the origin that stays inside; negative when outside.
+    ///
+    /// A polygon without an inside, like the footprint of a point vehicle, holds no disc.
     pub fn inradius(&self) -> f64 {
-        self.edges()
+        let sides = self.edges().filter(|(a, b)| a != b);
+        let least = sides
             .map(|(a, b)| (b - a).cross(-a) / (b - a).norm())
-            .fold(f64::INFINITY, f64::min)
+            .reduce(f64::min);
+        least.unwrap_or_else(|| -self.circumradius())
     }
 }
 
@@ -296,5 +300,10 @@ mod tests {
             (Point2::new(-1.5, -1.5), Point2::new(3.5, 1.5))
         );
         assert!((grown.inradius() - 1.5).abs() < 1e-12);
+        let point = ConvexPolygon::rectangle(Point2::default(), Point2::default());
+        assert_eq!(point.inradius(), 0.0);
+        let elsewhere = Point2::new(3.0, 4.0);
+        let point = ConvexPolygon::rectangle(elsewhere, elsewhere);
+        assert_eq!(point.inradius(), -5.0);
     }
 }

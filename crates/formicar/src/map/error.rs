@@ -7,6 +7,13 @@ use thiserror::Error;
 /// The most cells that a grid may have: 2^28, about 16 000 x 16 000.
 pub const MAX_CELLS: usize = 1 << 28;
 
+/// The smallest side of a cell, meters.
+pub const MIN_RESOLUTION_M: f64 = 1e-9;
+/// The largest side of a cell, meters.
+pub const MAX_RESOLUTION_M: f64 = 1e6;
+/// The largest coordinate of an origin, meters: beyond, doubles do not tell micrometers apart.
+pub const MAX_ORIGIN_M: f64 = 1e9;
+
 /// An invalid map.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -30,13 +37,17 @@ pub enum MapError {
         n_rows: usize,
     },
     /// A resolution that is no length.
-    #[error("resolution {resolution_m} m per cell; it must be a positive finite number")]
+    #[error(
+        "resolution {} m per cell; it must be from {MIN_RESOLUTION_M:e} to {MAX_RESOLUTION_M:e} m", short(*resolution_m)
+    )]
     BadResolution {
         /// The resolution given.
         resolution_m: f64,
     },
     /// An origin that is no pose.
-    #[error("origin ({x}, {y}, {yaw}); all three must be finite numbers")]
+    #[error(
+        "origin ({}, {}, {yaw}); x and y must be within {MAX_ORIGIN_M:e} m of 0 and the yaw a finite number", short(*x), short(*y)
+    )]
     BadOrigin {
         /// Metres.
         x: f64,
@@ -76,4 +87,13 @@ pub enum MapError {
         /// Rows of the map.
         n_rows: usize,
     },
+}
+
+/// A number, without a row of zeros where it is very large or small.
+fn short(number: f64) -> String {
+    if number == 0.0 || !number.is_finite() || (1e-4..1e7).contains(&number.abs()) {
+        number.to_string()
+    } else {
+        format!("{number:e}")
+    }
 }

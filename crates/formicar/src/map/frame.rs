@@ -1,7 +1,7 @@
 //! The position of a grid in the world: cells to metres and back.
 
 use super::cell::Cell;
-use super::error::{MAX_CELLS, MapError};
+use super::error::{MAX_CELLS, MAX_ORIGIN_M, MAX_RESOLUTION_M, MIN_RESOLUTION_M, MapError};
 use crate::geometry::{Point2, Pose2};
 
 /// Size, resolution and origin of a grid.
@@ -30,8 +30,9 @@ impl GridFrame {
     /// A frame of `n_cols` x `n_rows` cells of `resolution_m` metres.
     ///
     /// # Errors
-    /// An empty grid, more than [`MAX_CELLS`] cells, a resolution that is not a positive finite
-    /// number, or an origin that is not finite.
+    /// An empty grid, more than [`MAX_CELLS`] cells, a resolution outside
+    /// [`MIN_RESOLUTION_M`]..=[`MAX_RESOLUTION_M`], or an origin that is not finite or beyond
+    /// [`MAX_ORIGIN_M`].
     pub fn new(
         n_cols: usize,
         n_rows: usize,
@@ -44,10 +45,10 @@ impl GridFrame {
             Some(0) => return Err(MapError::Empty { n_cols, n_rows }),
             Some(_) => {}
         }
-        if !(resolution_m.is_finite() && resolution_m > 0.0) {
+        if !(MIN_RESOLUTION_M..=MAX_RESOLUTION_M).contains(&resolution_m) {
             return Err(MapError::BadResolution { resolution_m });
         }
-        if !origin.is_finite() {
+        if !(origin.is_finite() && origin.x.abs().max(origin.y.abs()) <= MAX_ORIGIN_M) {
             return Err(MapError::BadOrigin {
                 x: origin.x,
                 y: origin.y,

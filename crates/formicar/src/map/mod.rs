@@ -29,7 +29,7 @@ pub(crate) use bit_grid::{set_bits, shifted};
 pub use cell::Cell;
 pub use components::Components;
 pub use distance::DistanceField;
-pub use error::{MAX_CELLS, MapError};
+pub use error::{MAX_CELLS, MAX_ORIGIN_M, MAX_RESOLUTION_M, MIN_RESOLUTION_M, MapError};
 pub use frame::GridFrame;
 pub use grid::{OccupancyGrid, UnknownPolicy};
 pub use line_of_sight::{cells_in_sight, line_of_sight, touched_cells};

@@ -31,6 +31,17 @@ pub enum ScenarioError {
         /// The allowed values.
         range: &'static str,
     },
+    /// A heading beyond a turn, which was meant in degrees.
+    #[error(
+        "{what} heading = {heading_rad}; it must be in radians, within a turn{}",
+        in_degrees(*heading_rad)
+    )]
+    BeyondATurn {
+        /// The owner of the heading.
+        what: &'static str,
+        /// Its value.
+        heading_rad: f64,
+    },
     /// A tolerance that is not above 0.
     #[error("{what} {unit} = {value}; it must be finite and above 0")]
     BadTolerance {
@@ -93,6 +104,14 @@ pub enum ScenarioError {
         /// The obstacle cells that its footprint covers.
         cells: Vec<Cell>,
     },
+}
+
+/// The hint for a number that may be in degrees.
+fn in_degrees(heading: f64) -> String {
+    if heading.abs() > 3600.0 {
+        return String::new();
+    }
+    format!("; hint: {heading} degrees are {:.4}", heading.to_radians())
 }
 
 fn yaw_note(yaw_rad: f64) -> String {

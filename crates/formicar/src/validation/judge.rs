@@ -93,6 +93,7 @@ fn blank(obstacles: &ObstacleMap, vehicle: &Vehicle, path: &CurvePath) -> Report
         goal_error_rad: 0.0,
         via_s_m: Vec::new(),
         violations: Vec::new(),
+        assumptions: Vec::new(),
         map_hash: hex(obstacles.hash()),
         vehicle_hash: hex(vehicle.hash()),
         path_hash: hex(path_hash(path)),
@@ -106,8 +107,27 @@ fn finish(mut report: Report, violations: Vec<Violation>) -> Report {
     report
 }
 
-/// A 128-bit hash of a path's numbers, headings wrapped as files hold them.
+/// A 128-bit hash of a path's numbers, headings wrapped as files hold them; a zero has no sign,
+/// which programs lose that write JSON anew.
 fn path_hash(path: &CurvePath) -> u128 {
+    hash_of(path, |number| number + 0.0)
+}
+
+/// The hash that certificates held before, which kept the signs of zeros; 32 hexadecimal digits.
+///
+/// ```
+/// use formicar::Pose2;
+/// use formicar::path::CurvePath;
+/// use formicar::validation::path_hash_with_signs;
+///
+/// let paths = [0.0, -0.0].map(|y| CurvePath::new(Pose2::new(0.0, y, 0.0)));
+/// assert_ne!(path_hash_with_signs(&paths[0]), path_hash_with_signs(&paths[1]));
+/// ```
+pub fn path_hash_with_signs(path: &CurvePath) -> String {
+    format!("{:032x}", hash_of(path, |number| number))
+}
+
+fn hash_of(path: &CurvePath, number: impl Fn(f64) -> f64) -> u128 {
     let pose = |pose: Pose2| {
         let Pose2 { x, y, heading } = pose.wrapped();
         [x, y, heading]
@@ -131,7 +151,7 @@ fn path_hash(path: &CurvePath) -> u128 {
     let bytes: Vec<u8> = pose(path.start())
         .into_iter()
         .chain(segments)
-        .flat_map(f64::to_le_bytes)
+        .flat_map(|value| number(value).to_le_bytes())
         .collect();
     xxh3_128(&bytes)
 }

@@ -8,12 +8,16 @@
 //! continuous curvature, the curvature of a valid path jumps nowhere inside one gear and changes no
 //! faster than was asked.
 
+mod columns;
 mod continuity;
 mod ends;
 mod foreign;
 mod judge;
 mod report;
+#[cfg(feature = "formats")]
+mod ros_path;
 mod samples;
+mod samples_error;
 mod shape;
 mod swept;
 mod tangents;
@@ -21,9 +25,10 @@ mod via;
 
 pub use ends::missed_start;
 pub use foreign::{FOREIGN_CURVATURE_SLACK, path_through_points, path_through_poses};
-pub use judge::{judge, judge_path};
+pub use judge::{judge, judge_path, path_hash_with_signs};
 pub use report::{Certificate, Report, Violation, ViolationKind};
-pub use samples::{Samples, SamplesError};
+pub use samples::{ReadSamples, Samples};
+pub use samples_error::SamplesError;
 
 /// The largest gap between two segments: metres, and radians.
 pub const JOINT_TOLERANCE: f64 = 1e-6;

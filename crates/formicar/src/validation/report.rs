@@ -38,6 +38,12 @@ pub struct Report {
     pub via_s_m: Vec<f64>,
     /// The violations, in order of arc length.
     pub violations: Vec<Violation>,
+    /// Doubts about the map file that the findings take at its word; none of most.
+    #[cfg_attr(
+        feature = "serde",
+        serde(default, skip_serializing_if = "Vec::is_empty")
+    )]
+    pub assumptions: Vec<String>,
     /// Hash of what the judge saw of the map, 32 hexadecimal digits.
     pub map_hash: String,
     /// Hash of what the judge used of the vehicle.
@@ -95,6 +101,31 @@ pub enum ViolationKind {
     Malformed,
 }
 
+impl ViolationKind {
+    /// The kind in words.
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::Collision => "collision",
+            Self::LeavesMap => "out of the map",
+            Self::Curvature => "curvature",
+            Self::CurvatureChange => "change of curvature",
+            Self::Discontinuity => "discontinuity",
+            Self::Start => "start",
+            Self::Goal => "goal",
+            Self::Via => "via point",
+            Self::Gear => "gear",
+            Self::Malformed => "malformed",
+        }
+    }
+}
+
+impl Violation {
+    /// The distance of the value from the one allowed, in the unit of the limit.
+    pub fn excess(&self) -> f64 {
+        (self.amount - self.limit).abs()
+    }
+}
+
 /// The judge's proof that a path can be driven. Only the judge makes one.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -102,6 +133,15 @@ pub enum ViolationKind {
 pub struct Certificate(Report);
 
 impl Report {
+    /// The same findings with doubts about the map file, which the judge does not see.
+    #[must_use]
+    pub fn assuming(self, warnings: &[String]) -> Self {
+        Self {
+            assumptions: warnings.to_vec(),
+            ..self
+        }
+    }
+
     /// The certificate, if nothing was violated; otherwise the report back.
     ///
     /// # Errors

@@ -37,6 +37,11 @@ pub(super) struct MapSource {
     /// Cell size in meters, for formats that do not hold it.
     #[arg(long, value_name = "M", value_parser = values::positive, allow_hyphen_values = true)]
     pub(super) resolution: Option<f64>,
+
+    /// Take a grey value (0 to 255) of the map's image as unknown, whatever its thresholds say;
+    /// map savers write 205.
+    #[arg(long, value_name = "GREY")]
+    pub(super) unknown_grey: Option<u8>,
 }
 
 /// Flags of `map info`.

@@ -1,20 +1,31 @@
 //! The map files that the commands of `map` read and write.
 
 use super::args::MapSource;
-use crate::scene::{self, SceneArgs};
+use crate::failure::note;
+use crate::scene::{self, Loaded, SceneArgs};
 use anyhow::{Result, bail};
 use formicar::map::OccupancyGrid;
 use formicar::map::format::write_map;
 use std::path::Path;
 
-/// A map file or a built-in map, unchanged.
+/// A map file or a built-in map, unchanged; its warnings go to stderr.
 pub(super) fn read(source: &MapSource) -> Result<OccupancyGrid> {
+    let loaded = load(source)?;
+    for warning in &loaded.warnings {
+        note(&format!("warning: {}: {warning}", loaded.name));
+    }
+    Ok(loaded.map)
+}
+
+/// A map file or a built-in map, unchanged, with its warnings.
+pub(super) fn load(source: &MapSource) -> Result<Loaded> {
     let args = SceneArgs {
         map: Some(source.map.clone()),
         resolution: source.resolution,
+        unknown_grey: source.unknown_grey,
         ..SceneArgs::default()
     };
-    Ok(scene::find(&args)?.map)
+    scene::find(&args)
 }
 
 /// Permission to write a format without a frame.

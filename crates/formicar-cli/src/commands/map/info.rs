@@ -36,6 +36,9 @@ struct Info {
     largest_component_m2: f64,
     /// The place farthest from obstacles and border, among cell centers.
     widest: Option<Widest>,
+    /// Doubts about the file.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    warnings: Vec<String>,
 }
 
 /// A place and its distance from everything.
@@ -48,8 +51,11 @@ struct Widest {
 
 /// Carries out `map info`.
 pub(super) fn run(args: &InfoArgs, out: &mut impl Write) -> Result<Ending, Failure> {
-    let grid = files::read(&args.source)?;
-    let info = describe(&args.source.map, grid, args);
+    let loaded = files::load(&args.source)?;
+    let info = Info {
+        warnings: loaded.warnings,
+        ..describe(&args.source.map, loaded.map, args)
+    };
     if args.json {
         serde_json::to_writer(&mut *out, &info).map_err(io::Error::from)?;
         writeln!(out)?;
@@ -85,6 +91,7 @@ fn describe(name: &str, grid: OccupancyGrid, args: &InfoArgs) -> Info {
         largest_component_cells,
         largest_component_m2: f64::from(largest_component_cells) * frame.resolution_m().powi(2),
         widest: widest(&obstacles),
+        warnings: Vec::new(),
     }
 }
 
@@ -169,5 +176,9 @@ fn explain(info: &Info, out: &mut impl Write) -> io::Result<()> {
             widest.clearance_m, widest.x, widest.y
         ),
         None => writeln!(out, "widest      nowhere: no cell is free"),
+    }?;
+    for warning in &info.warnings {
+        writeln!(out, "warning     {warning}")?;
     }
+    Ok(())
 }

@@ -34,6 +34,7 @@ pub(crate) fn load(
     } else {
         let options = ReadOptions {
             resolution_m: args.scene.resolution,
+            ..ReadOptions::default()
         };
         let map = read_map(Path::new(name), &options).context("--soft-costs")?;
         SoftCosts::from_graded(&map, weight)

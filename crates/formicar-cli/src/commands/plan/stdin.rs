@@ -68,11 +68,20 @@ fn parse(line: &[u8]) -> Result<RequestDocument, String> {
     serde_json::from_slice(line).map_err(|e| refused(e.to_string()))
 }
 
-/// The id of a line that is valid JSON but not a request, so that the caller can match the answer.
+/// The id of a line that is no request, so that the caller can match the answer; also of one that
+/// is no JSON, as far as it goes.
 fn id_of(line: &[u8]) -> Option<serde_json::Value> {
-    let line = line.get(..line.len().min(MAX_LINE as usize))?;
-    let value: serde_json::Value = serde_json::from_slice(line).ok()?;
-    value.get("id").cloned()
+    const KEY: &[u8] = b"\"id\"";
+    if let Ok(value) = serde_json::from_slice::<serde_json::Value>(line) {
+        return value.get("id").cloned();
+    }
+    let at = line.windows(KEY.len()).position(|word| word == KEY)?;
+    let rest = line[at + KEY.len()..].trim_ascii_start();
+    let rest = rest.strip_prefix(b":")?;
+    serde_json::Deserializer::from_slice(rest)
+        .into_iter()
+        .next()?
+        .ok()
 }
 
 /// The next line; of a longer one, [`MAX_LINE`] bytes and one more, which shows the excess.
@@ -121,6 +130,10 @@ mod tests {
         assert!(parse(line).is_err());
         assert_eq!(id_of(line), Some("a7".into()));
         assert_eq!(id_of(b"not json"), None);
+        assert_eq!(id_of(br#"{"id": 7, "goal": [1, 2,}"#), Some(7.into()));
+        assert_eq!(id_of(br#"{"goal": [1, 2], "id":"b" "#), Some("b".into()));
+        assert_eq!(id_of(br#"{"id": "#), None);
+        assert_eq!(id_of(br#"{"id"#), None);
     }
 
     #[test]

@@ -1,10 +1,9 @@
 //! Files of other planners: paths to be judged, or results of their benchmarks.
 
-mod nav_path;
 mod ompl_log;
 
 use anyhow::{Context, Result};
-use formicar::validation::Samples;
+use formicar::validation::{ReadSamples, Samples};
 
 /// A run out of a file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -26,10 +25,8 @@ pub struct Imported {
 /// The format of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// Lines of x, y\[, heading\].
-    Poses,
-    /// A `nav_msgs/Path` as JSON.
-    NavPath,
+    /// A path: a table or a message of ROS.
+    Path,
     /// A benchmark log of OMPL.
     OmplLog,
 }
@@ -37,13 +34,10 @@ pub enum Format {
 impl Format {
     /// The format that a text looks like.
     pub fn of(text: &str) -> Self {
-        let text = text.trim_start();
-        if text.starts_with(['{', '[']) {
-            Self::NavPath
-        } else if is_log(text.lines().next().unwrap_or_default()) {
+        if is_log(text.trim_start().lines().next().unwrap_or_default()) {
             Self::OmplLog
         } else {
-            Self::Poses
+            Self::Path
         }
     }
 }
@@ -71,8 +65,7 @@ pub fn read(text: &str) -> Result<Vec<Imported>> {
         }]
     };
     match Format::of(text) {
-        Format::Poses => Ok(of_path(Samples::from_csv(text)?)),
-        Format::NavPath => nav_path::read(text).map(of_path).context("nav_msgs/Path"),
+        Format::Path => Ok(of_path(ReadSamples::from_text(text)?.samples)),
         Format::OmplLog => ompl_log::read(text).context("OMPL benchmark log"),
     }
 }
@@ -83,12 +76,12 @@ mod tests {
 
     #[test]
     fn files_are_told_apart() {
-        assert_eq!(Format::of("\n {\"poses\": []}"), Format::NavPath);
+        assert_eq!(Format::of("\n {\"poses\": []}"), Format::Path);
         assert_eq!(Format::of("OMPL version 2.0.1\n"), Format::OmplLog);
         assert_eq!(Format::of("formicar version 0.1.0\n"), Format::OmplLog);
         assert_eq!(Format::of("Experiment door\n"), Format::OmplLog);
-        assert_eq!(Format::of("x,y\n1,2\n"), Format::Poses);
-        assert_eq!(Format::of("x y version\n1 2 3\n"), Format::Poses);
+        assert_eq!(Format::of("x,y\n1,2\n"), Format::Path);
+        assert_eq!(Format::of("x y version\n1 2 3\n"), Format::Path);
         let runs = read("1,2,0.5\n2,2,0.5\n").unwrap();
         assert_eq!(runs[0].samples.as_ref().unwrap().points.len(), 2);
         assert!(read("1,2\n3\n").unwrap_err().to_string().contains("line 2"));

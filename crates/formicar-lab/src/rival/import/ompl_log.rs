@@ -7,13 +7,15 @@ use std::iter::{Enumerate, Peekable};
 use std::str::Lines;
 
 /// Properties that are used; the time of a planner is without that of simplification.
-const USED: [&str; 6] = [
+const USED: [&str; 7] = [
     "solved",
     "approximate solution",
     "time",
     "simplification time",
     "solution length",
     "simplified solution length",
+    // Of MoveIt.
+    "path_plan_length",
 ];
 
 /// Most lines that a count may announce.
@@ -77,16 +79,25 @@ fn values<'a>(line: &str, names: &[&'a str]) -> Result<Vec<(&'a str, f64)>> {
         match field.trim() {
             "" => {}
             // Properties of planners may be words; none of ours are.
-            field => match field.parse() {
-                Ok(value) => values.push((name, value)),
-                Err(_) if USED.contains(&name) => {
+            field => match number(field) {
+                Some(value) => values.push((name, value)),
+                None if USED.contains(&name) => {
                     bail!("{name}: {:?}; expected a number", short(field));
                 }
-                Err(_) => {}
+                None => {}
             },
         }
     }
     Ok(values)
+}
+
+/// A number, or a truth value in the words of `MoveIt`.
+fn number(field: &str) -> Option<f64> {
+    match field {
+        "true" => Some(1.0),
+        "false" => Some(0.0),
+        number => number.parse().ok(),
+    }
 }
 
 fn imported(planner: &str, run: u64, values: &[(&str, f64)]) -> Imported {
@@ -102,7 +113,11 @@ fn imported(planner: &str, run: u64, values: &[(&str, f64)]) -> Imported {
     // A length of 0 stands where there is no path.
     let is_length = |length_m: &f64| is_found && is_known(length_m) && *length_m > 0.0;
     let length_m = of("simplified solution length").filter(is_length);
-    let length_m = length_m.or_else(|| of("solution length").filter(is_length));
+    let unsimplified = ["solution length", "path_plan_length"];
+    let unsimplified = unsimplified
+        .iter()
+        .find_map(|name| of(name).filter(is_length));
+    let length_m = length_m.or(unsimplified);
     Imported {
         planner: Some(planner.to_owned()),
         run,
@@ -198,6 +213,16 @@ mod tests {
         assert_eq!(runs[2].planner.as_deref(), Some("geometric_RRTstar"));
         assert!(!runs[2].is_found);
         assert_eq!((runs[2].query_s, runs[2].length_m), (Some(0.75), None));
+    }
+
+    #[test]
+    fn truth_values_in_words_and_lengths_of_moveit_are_read() {
+        let log = "MoveIt version 1.1.11\nExperiment hall\n1 planners\nRRTConnect\n\
+            0 common properties\n3 properties for each run\npath_plan_length REAL\nsolved BOOLEAN\n\
+            time REAL\n2 runs\n8.4; true; 0.21; \n; false; 10.0; \n.\n";
+        let runs = crate::rival::import::read(log).unwrap();
+        assert!(runs[0].is_found && !runs[1].is_found);
+        assert_eq!((runs[0].length_m, runs[1].length_m), (Some(8.4), None));
     }
 
     #[test]

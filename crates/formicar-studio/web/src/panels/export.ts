@@ -113,8 +113,8 @@ class Panel {
   }
 
   private saveJson(): void {
-    const answer = answerOf(shownSlot(this.store.state));
-    if (answer) saveFile(this.stem(), "json", `${JSON.stringify(answer)}\n`);
+    const text = shownSlot(this.store.state).plan?.end?.text;
+    if (text) saveFile(this.stem(), "json", `${text}\n`);
   }
 
   private saveCsv(): void {

@@ -73,7 +73,8 @@ pub fn parse_car_scenarios(json: &str, folder: &Path) -> Result<Vec<CarScenario>
 fn scenario(entry: Entry, folder: &Path) -> Result<CarScenario, FormatError> {
     let pose = |[x, y, heading]: [f64; 3]| Pose2::new(x, y, heading);
     let id = entry.id;
-    match vehicle(entry.vehicle) {
+    let checked = check_headings([entry.start, entry.goal]).and_then(|()| vehicle(entry.vehicle));
+    match checked {
         Ok(vehicle) => Ok(CarScenario {
             map: folder.join(entry.map),
             start: pose(entry.start),
@@ -86,6 +87,20 @@ fn scenario(entry: Entry, folder: &Path) -> Result<CarScenario, FormatError> {
             Err(FormatProblem::Scenario { id, problem }.into())
         }
     }
+}
+
+/// Refuses headings beyond a turn, which are in degrees.
+fn check_headings(poses: [[f64; 3]; 2]) -> Result<(), FormatProblem> {
+    for ([_, _, heading], thing) in poses.into_iter().zip(["start heading", "goal heading"]) {
+        // A turn, rounded up.
+        if heading.abs() > 6.2832 {
+            let radians = heading.to_radians();
+            let expected =
+                format!("in radians, within a turn; hint: {heading} degrees are {radians:.4}");
+            return Err(FormatProblem::bad_value(thing, heading, expected));
+        }
+    }
+    Ok(())
 }
 
 fn vehicle(mut measures: Map<String, Value>) -> Result<VehicleParameters, FormatProblem> {

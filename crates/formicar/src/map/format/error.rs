@@ -36,6 +36,26 @@ pub enum FormatProblem {
     /// The file cannot be written.
     #[error("cannot be written: {0}")]
     Write(std::io::Error),
+    /// The image of a ROS map cannot be read.
+    #[error("its image {image} cannot be read: {problem}; hint: {hint}")]
+    Image {
+        /// The image as the description names it.
+        image: String,
+        /// The error of the system.
+        problem: String,
+        /// The image that lies beside the description.
+        hint: String,
+    },
+    /// A raw image whose line ends were changed.
+    #[error(
+        "the lines of the header end with CR LF, and {found} bytes of image data follow where {needed} are needed; hint: the file was copied as text, copy it as binary"
+    )]
+    CopiedAsText {
+        /// Bytes found.
+        found: usize,
+        /// Bytes needed.
+        needed: usize,
+    },
     /// More bytes than any map needs.
     #[error("is longer than {limit} bytes, the limit for this kind of file")]
     TooLong {

@@ -1,6 +1,6 @@
 //! A grayscale image, whatever file it came from.
 
-use super::{FormatError, FormatProblem, pgm, png_file};
+use super::{FormatError, FormatProblem, bmp, pgm, png_file};
 use crate::geometry::Pose2;
 use crate::map::{GridFrame, MapError};
 
@@ -20,7 +20,7 @@ pub struct GreyImage {
 }
 
 impl GreyImage {
-    /// Reads a PGM (P2 or P5) or PNG image. Colors become the rounded mean of red, green and blue.
+    /// Reads a PGM (P2 or P5), PNG or BMP image. Colors become the rounded mean of red, green and blue.
     ///
     /// # Errors
     /// Another kind of file, a broken one, or more pixels than a map may have cells.
@@ -28,7 +28,11 @@ impl GreyImage {
         match bytes {
             [b'P', b'2' | b'5', ..] => pgm::read(bytes),
             [0x89, b'P', b'N', b'G', ..] => png_file::read(bytes),
-            _ => Err(FormatProblem::wrong_magic(bytes, "a PGM (P2 or P5) or PNG image").into()),
+            [b'B', b'M', ..] => bmp::read(bytes),
+            _ => {
+                let expected = "a PGM (P2 or P5), PNG or BMP image";
+                Err(FormatProblem::wrong_magic(bytes, expected).into())
+            }
         }
     }
 }

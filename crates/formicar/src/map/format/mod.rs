@@ -3,10 +3,12 @@
 //! Every format has functions from text or bytes, and [`read_map`] and [`write_map`] choose one by
 //! the file's name, and by its contents where the name is not enough.
 
+mod bmp;
 mod car;
 mod error;
 mod files;
 mod grey_image;
+mod map_file;
 mod matrix;
 mod movingai;
 mod pgm;
@@ -22,6 +24,7 @@ pub use car::{CarScenario, parse_car_scenarios, read_car_scenarios};
 pub use error::{FormatError, FormatProblem, Place};
 pub use files::write_atomically;
 pub use grey_image::GreyImage;
+pub use map_file::{MapFile, MapWarning, SAVER_UNKNOWN_GREY};
 pub use matrix::{parse_matrix, to_csv_matrix, to_text_matrix};
 pub use movingai::{
     MovingAiScenario, parse_movingai_map, parse_movingai_scenarios, read_movingai_scenarios,

@@ -74,12 +74,21 @@ fn raw_values(
     max_value: u16,
 ) -> Result<Vec<u16>, FormatError> {
     // One blank ends the header; whatever follows is data.
-    let data = scanner.bytes.get(scanner.offset + 1..).unwrap_or(&[]);
+    let mut data = scanner.bytes.get(scanner.offset + 1..).unwrap_or(&[]);
     let n_bytes = if max_value > 255 {
         2 * n_cells
     } else {
         n_cells
     };
+    // But a CR LF that leaves all of the data is one end of a line, as text editors write it.
+    let ends_with_cr_lf = scanner.bytes[scanner.offset..].starts_with(b"\r\n");
+    if ends_with_cr_lf && data.len() > n_bytes {
+        data = &data[1..];
+        if !data[n_bytes..].trim_ascii().is_empty() {
+            let (found, needed) = (data.len(), n_bytes);
+            return Err(FormatProblem::CopiedAsText { found, needed }.into());
+        }
+    }
     check_count("bytes of image data", data.len(), n_bytes)?;
     let (data, rest) = data.split_at(n_bytes);
     if !rest.trim_ascii().is_empty() {
@@ -178,6 +187,28 @@ mod tests {
     #[test]
     fn a_blank_first_pixel_is_data() {
         assert_eq!(read(b"P5 2 1 255\n\n ").unwrap().values, [10, 32]);
+    }
+
+    #[test]
+    fn headers_with_cr_lf_do_not_shift_the_image() {
+        for bytes in [
+            &b"P5\r\n2 2\r\n255\r\nabcd"[..],
+            b"P5\r\n# made on Windows\r\n2 2\r\n255\r\nabcd\n",
+            b"P5\n2 2\n255\nabcd",
+        ] {
+            assert_eq!(read(bytes).unwrap().values, [97, 98, 99, 100]);
+        }
+        // The last pixel is a blank: what follows is no blank behind a shifted image.
+        let blank = read(b"P5\r\n2 2\r\n255\r\nabc\n").unwrap();
+        assert_eq!(blank.values, [97, 98, 99, 10]);
+        // The first pixel is a line feed.
+        let first = read(b"P5\r2 2\r255\r\nbcd").unwrap();
+        assert_eq!(first.values, [10, 98, 99, 100]);
+        let text = message(b"P5\r\n2 2\r\n255\r\na\r\nb\r\nc");
+        assert!(
+            text.contains("7 bytes") && text.contains("copy it as binary"),
+            "{text}"
+        );
     }
 
     #[test]

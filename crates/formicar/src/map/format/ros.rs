@@ -86,6 +86,7 @@ struct Keys {
 enum Negate {
     Flag(bool),
     Number(i64),
+    Text(String),
 }
 
 impl RosMapDescription {
@@ -102,6 +103,14 @@ impl RosMapDescription {
         let negate = match needed("negate", keys.negate)? {
             Negate::Flag(negate) => negate,
             Negate::Number(number @ (0 | 1)) => number == 1,
+            Negate::Text(text) => match text.as_str() {
+                "0" | "false" => false,
+                "1" | "true" => true,
+                other => {
+                    let expected = "0, 1, true or false";
+                    return Err(FormatProblem::bad_value("negate", other, expected).into());
+                }
+            },
             Negate::Number(other) => {
                 return Err(FormatProblem::bad_value("negate", other, "0 or 1").into());
             }
@@ -170,7 +179,18 @@ impl RosMapDescription {
 
 /// The error with the line that it is about, if it knows one.
 fn yaml_error(error: &serde_saphyr::Error, yaml: &str) -> FormatError {
-    let message = error.without_snippet().to_string();
+    let mut message = error.without_snippet().to_string();
+    // The reader's advice is for programs, not for those who write maps.
+    if let Some(key) = message.strip_prefix("duplicate mapping key: ") {
+        let key = key.split([',', ' ']).next().unwrap_or_default();
+        message = format!("the key {key} stands twice; hint: remove one of the two");
+    } else if message.starts_with("expected sequence start") {
+        "expected a list; hint: [x, y, yaw] in meters and radians, without quotes"
+            .clone_into(&mut message);
+    } else if message.starts_with("invalid floating point") {
+        "expected a number; hint: a map saver writes nan where it knew no pose; write 0"
+            .clone_into(&mut message);
+    }
     let line = error.location().map_or(0, |at| at.line() as usize);
     let source = line.checked_sub(1).and_then(|i| yaml.lines().nth(i));
     match source {
@@ -185,8 +205,19 @@ fn needed<T>(thing: &'static str, value: Option<T>) -> Result<T, FormatProblem> 
     value.ok_or(FormatProblem::Missing { thing, hint })
 }
 
+/// The largest yaw: a turn, rounded up.
+const MAX_YAW_RAD: f64 = 6.2832;
+
 fn origin(numbers: &[f64]) -> Result<Pose2, FormatProblem> {
     match *numbers {
+        [_, _, yaw] if yaw.abs() > MAX_YAW_RAD => Err(FormatProblem::bad_value(
+            "the origin's yaw",
+            yaw,
+            format!(
+                "in radians, within a turn; hint: {yaw} degrees are {:.4}",
+                yaw.to_radians()
+            ),
+        )),
         [x, y, yaw] => Ok(Pose2::new(x, y, yaw)),
         _ => Err(FormatProblem::bad_value(
             "origin",
@@ -218,7 +249,13 @@ mod tests {
         assert_eq!(description.origin, Pose2::new(1.0, -2.5, 0.3));
         assert_eq!(description.mode, RosMapMode::Trinary);
         assert!(!description.negate);
-        for (text, negate) in [("1", true), ("true", true), ("false", false)] {
+        for (text, negate) in [
+            ("1", true),
+            ("true", true),
+            ("false", false),
+            ("\"0\"", false),
+            ("\"1\"", true),
+        ] {
             let description = parse("negate: 0", &format!("negate: {text}")).unwrap();
             assert_eq!(description.negate, negate, "{text}");
         }
@@ -270,6 +307,22 @@ mod tests {
             broken.contains("wide") && broken.contains("line 2"),
             "{broken}"
         );
+        let twice = message("negate: 0", "negate: 0\nnegate: 0");
+        assert!(
+            twice.contains("negate stands twice") && !twice.contains("Policy"),
+            "{twice}"
+        );
+        let text = message("[1, -2.5, 0.3]", "\"[1, -2.5, 0.3]\"");
+        assert!(
+            text.contains("expected a list; hint: [x, y, yaw]"),
+            "{text}"
+        );
+        let nan = message("0.3]", "-nan]");
+        assert!(nan.contains("-nan") && nan.contains("write 0"), "{nan}");
+        let degrees = message("0.3]", "90]");
+        assert!(degrees.contains("90 degrees are 1.5708"), "{degrees}");
+        assert!(message("0.05", "1e300").contains("resolution 1"));
+        assert!(message("-2.5", "1e300").contains("origin (1, 1"));
         assert!(message("negate: 0", "negate: maybe").contains("0, 1, true or false"));
         assert!(RosMapDescription::from_yaml("- a\n- b").is_err());
         assert!(RosMapDescription::from_yaml("image: [").is_err());

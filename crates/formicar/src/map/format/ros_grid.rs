@@ -1,7 +1,7 @@
 //! The grid that a ROS map's description makes of its image.
 
 use super::files::{MAX_MAP_BYTES, MAX_TEXT_BYTES, read_bytes, text};
-use super::{FormatError, FormatProblem, GreyImage, RosMapDescription, RosMapMode};
+use super::{FormatError, FormatProblem, GreyImage, MapFile, RosMapDescription, RosMapMode};
 use crate::map::{FREE, GridFrame, OCCUPIED, OccupancyGrid, UNKNOWN};
 use std::path::Path;
 
@@ -11,6 +11,19 @@ impl RosMapDescription {
     /// # Errors
     /// An impossible resolution or origin, or the mode `raw` on an image that has not 8 bits.
     pub fn to_grid(&self, image: &GreyImage) -> Result<OccupancyGrid, FormatError> {
+        Ok(self.to_map_file(image, None)?.grid)
+    }
+
+    /// The same with warnings, and with a grey value (of 0 to 255) that stands for unknown cells
+    /// whatever the thresholds say.
+    ///
+    /// # Errors
+    /// As [`Self::to_grid`].
+    pub fn to_map_file(
+        &self,
+        image: &GreyImage,
+        unknown_grey: Option<u8>,
+    ) -> Result<MapFile, FormatError> {
         self.check()?;
         if self.mode == RosMapMode::Raw && image.max_value != 255 {
             let expected = "255 in mode raw; hint: save the image with 8 bits";
@@ -22,9 +35,12 @@ impl RosMapDescription {
             .into());
         }
         let frame = GridFrame::new(image.n_cols, image.n_rows, self.resolution_m, self.origin)?;
-        let table: Vec<i8> = (0..=image.max_value)
+        let mut table: Vec<i8> = (0..=image.max_value)
             .map(|grey| self.cell_value(grey, image.max_value))
             .collect();
+        if let Some(grey) = unknown_grey {
+            table[usize::from(image.scaled(grey))] = UNKNOWN;
+        }
         let mut values = Vec::with_capacity(frame.n_cells());
         for row in image.values.chunks_exact(image.n_cols).rev() {
             values.extend(row.iter().map(|&grey| table[usize::from(grey)]));
@@ -35,10 +51,13 @@ impl RosMapDescription {
                 *value = UNKNOWN;
             }
         }
-        Ok(OccupancyGrid::new(frame, values)?)
+        Ok(MapFile {
+            grid: OccupancyGrid::new(frame, values)?,
+            warnings: self.warnings(image, unknown_grey),
+        })
     }
 
-    fn cell_value(&self, grey: u16, max_value: u16) -> i8 {
+    pub(super) fn cell_value(&self, grey: u16, max_value: u16) -> i8 {
         if self.mode == RosMapMode::Raw {
             return i8::try_from(grey)
                 .ok()
@@ -66,16 +85,64 @@ impl OccupancyGrid {
     /// # Errors
     /// Either file cannot be read or is wrong; the error names it.
     pub fn read_ros_yaml(path: impl AsRef<Path>) -> Result<Self, FormatError> {
-        let path = path.as_ref();
-        let bytes = read_bytes(path, MAX_TEXT_BYTES)?;
-        let description = text(&bytes, "the YAML description of a ROS map")
-            .and_then(RosMapDescription::from_yaml)
-            .map_err(|e| e.in_file(path))?;
-        let image_path = description.image_path(path).map_err(|e| e.in_file(path))?;
-        GreyImage::from_bytes(&read_bytes(&image_path, MAX_MAP_BYTES)?)
-            .and_then(|image| description.to_grid(&image))
-            .map_err(|e| e.in_file(&image_path))
+        Ok(read_ros_map(path.as_ref(), None)?.grid)
     }
+}
+
+/// Reads a ROS map from its YAML description, and the image that it names.
+pub(super) fn read_ros_map(path: &Path, unknown_grey: Option<u8>) -> Result<MapFile, FormatError> {
+    let bytes = read_bytes(path, MAX_TEXT_BYTES)?;
+    let description = text(&bytes, "the YAML description of a ROS map")
+        .and_then(RosMapDescription::from_yaml)
+        .map_err(|e| e.in_file(path))?;
+    let image_path = description.image_path(path).map_err(|e| e.in_file(path))?;
+    let bytes = read_bytes(&image_path, MAX_MAP_BYTES).map_err(|e| match e.problem() {
+        FormatProblem::Read(error) if !image_path.is_file() => {
+            missing_image(&description.image, path, error.to_string()).in_file(path)
+        }
+        _ => e,
+    })?;
+    GreyImage::from_bytes(&bytes)
+        .and_then(|image| description.to_map_file(&image, unknown_grey))
+        .map_err(|e| e.in_file(&image_path))
+}
+
+/// The error for an image that cannot be read, with the image that lies beside its description.
+fn missing_image(image: &str, yaml: &Path, problem: String) -> FormatError {
+    let folder = match yaml.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let is_image = |name: &String| {
+        let extension = Path::new(name).extension().unwrap_or_default();
+        let extension = extension.to_ascii_lowercase();
+        ["pgm", "png", "bmp"]
+            .iter()
+            .any(|known| extension == *known)
+    };
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
+    let mut beside: Vec<String> = names.filter(is_image).collect();
+    beside.sort();
+    // The last part of a path of any system, or of an address.
+    let last = image.rsplit(['/', '\\']).next().unwrap_or(image);
+    let named = beside.iter().find(|name| name.eq_ignore_ascii_case(last));
+    let same_stem = |name: &&String| Path::new(name).file_stem() == yaml.file_stem();
+    let best = named.or_else(|| beside.iter().find(same_stem));
+    let best = best.or_else(|| beside.first().filter(|_| beside.len() == 1));
+    let hint = match best {
+        Some(name) if image.contains("://") => {
+            format!("{name:?} lies beside this file; write a path, not an address")
+        }
+        Some(name) => format!("{name:?} lies beside this file; names are relative to it"),
+        None => "no such image lies beside this file; names are relative to it".to_owned(),
+    };
+    FormatProblem::Image {
+        image: image.to_owned(),
+        problem,
+        hint,
+    }
+    .into()
 }
 
 #[cfg(test)]
@@ -144,6 +211,36 @@ mod tests {
             error.contains("1000") && error.contains("mode raw"),
             "{error}"
         );
+    }
+
+    #[test]
+    fn a_missing_image_is_told_with_its_description_and_the_image_beside_it() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("m.pgm"), "P5 1 1 255 a").unwrap();
+        let yaml = folder.path().join("depot.yaml");
+        let told = |image: &str| {
+            let text = format!(
+                "image: {image}\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\n\
+                 occupied_thresh: 0.65\nfree_thresh: 0.196\n"
+            );
+            std::fs::write(&yaml, text).unwrap();
+            let read = OccupancyGrid::read_ros_yaml(&yaml);
+            read.map_or_else(|error| error.to_string(), |_| String::new())
+        };
+        for image in ["M.PGM", "C:\\maps\\m.pgm", "maps/m.pgm", "other.png"] {
+            let told = told(image);
+            assert!(
+                told.contains("depot.yaml") && told.contains(image),
+                "{told}"
+            );
+            assert!(told.contains("\"m.pgm\" lies beside"), "{told}");
+        }
+        let address = told("file:///maps/m.pgm");
+        assert!(address.contains("not an address"), "{address}");
+        assert_eq!(told("./m.pgm"), "");
+        std::fs::write(folder.path().join("n.pgm"), "").unwrap();
+        let none = told("other.png");
+        assert!(none.contains("no such image lies beside"), "{none}");
     }
 
     #[test]

@@ -7,6 +7,7 @@ use super::{
     to_movingai_map, to_text_matrix, write_atomically,
 };
 use crate::map::{FREE, OCCUPIED, OccupancyGrid, UNKNOWN};
+use std::f64::consts::TAU;
 use std::path::Path;
 
 /// Writes a map in the format that the file's extension names.
@@ -91,7 +92,11 @@ impl RosMapDescription {
         Self {
             image: image.to_owned(),
             resolution_m: grid.frame().resolution_m(),
-            origin: grid.frame().origin(),
+            // Readers take a yaw beyond a turn for one in degrees.
+            origin: match grid.frame().origin() {
+                origin if origin.heading.abs() > TAU => origin.wrapped(),
+                origin => origin,
+            },
             negate: false,
             occupied_threshold: DEFAULT_OCCUPIED_THRESHOLD,
             free_threshold: DEFAULT_FREE_THRESHOLD,
@@ -191,7 +196,14 @@ mod tests {
             write_map(&path, &grid).unwrap();
             let resolution_m = Some(1.0);
             assert_eq!(
-                read_map(&path, &ReadOptions { resolution_m }).unwrap(),
+                read_map(
+                    &path,
+                    &ReadOptions {
+                        resolution_m,
+                        ..ReadOptions::default()
+                    }
+                )
+                .unwrap(),
                 grid,
                 "{name}"
             );

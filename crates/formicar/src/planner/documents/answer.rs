@@ -188,6 +188,9 @@ pub struct MapRecord {
     pub unknown: String,
     /// Areas closed for the vehicle, as corners `[x m, y m]`.
     pub keep_out: Vec<Vec<[f64; 2]>>,
+    /// Doubts about the file, in words; none of most.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
     /// Preference for some ground over other; missing without one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub soft_costs: Option<SoftCostsRecord>,
@@ -266,7 +269,7 @@ impl AnswerContext<'_> {
             status: AnswerStatus::Found,
             code: ErrorCode::None,
             code_number: ErrorCode::None.number(),
-            certificate: Some((*plan.certificate).clone()),
+            certificate: Some((*plan.certificate).clone().assuming(&self.map.warnings)),
             metrics: Some(plan.metrics.clone()),
             cut_by: plan.cut_by,
             colony: ColonyRecord::new(&plan.stages),

@@ -50,8 +50,25 @@ impl RequestDocument {
     /// The request, with what is left out taken from `defaults`.
     ///
     /// # Errors
-    /// No start or goal here nor there, `goal` beside `goals`, or a deadline that is no time.
+    /// No start or goal here nor there, `goal` beside `goals`, a deadline that is no time, or a
+    /// heading beyond a turn, which is one in degrees.
     pub fn onto(&self, defaults: &RequestDocument) -> Result<Request, ScenarioError> {
+        let request = self.recorded_onto(defaults)?;
+        check_heading("start", request.start.heading)?;
+        for goal in request.goals() {
+            check_heading("goal", goal.heading)?;
+        }
+        for heading_rad in request.via.iter().filter_map(|via| via.heading_rad) {
+            check_heading("via point", heading_rad)?;
+        }
+        Ok(request)
+    }
+
+    /// The same of a request on record, whose headings may be any number of turns.
+    pub(super) fn recorded_onto(
+        &self,
+        defaults: &RequestDocument,
+    ) -> Result<Request, ScenarioError> {
         let start = self.start.or(defaults.start);
         let goals = self.own_goals()?;
         let mut goals = match goals {
@@ -100,6 +117,16 @@ impl RequestDocument {
             }
         }
     }
+}
+
+/// The largest heading of a request: a turn, rounded up.
+const MAX_HEADING_RAD: f64 = 6.2832;
+
+fn check_heading(what: &'static str, heading_rad: f64) -> Result<(), ScenarioError> {
+    if heading_rad.is_finite() && heading_rad.abs() > MAX_HEADING_RAD {
+        return Err(ScenarioError::BeyondATurn { what, heading_rad });
+    }
+    Ok(())
 }
 
 fn pose([x, y, heading]: [f64; 3]) -> Pose2 {
@@ -204,6 +231,29 @@ mod tests {
         let merged = line.onto(&RequestDocument::from(&request)).unwrap();
         assert_eq!((merged.start.x, merged.goal.x), (1.0, 3.0));
         assert!(line.onto(&RequestDocument::default()).is_err());
+    }
+
+    #[test]
+    fn refuses_headings_in_degrees() {
+        let request = Request::new(Pose2::new(1.0, 2.0, 6.28), Pose2::new(3.0, 4.0, -6.28));
+        let refused = |line: &str| {
+            let line: RequestDocument = serde_json::from_str(line).unwrap();
+            let merged = line.onto(&RequestDocument::from(&request));
+            merged.map_or_else(|error| error.to_string(), |_| String::new())
+        };
+        assert_eq!(refused("{}"), "");
+        for line in [
+            r#"{"start": [1, 1, 90]}"#,
+            r#"{"goal": [1, 1, -90]}"#,
+            r#"{"goals": [[1, 1, 0], [1, 1, 90]]}"#,
+            r#"{"via": [{"at": [1, 1], "heading": 90}]}"#,
+        ] {
+            let told = refused(line);
+            assert!(
+                told.contains("1.5708") && told.contains("radians"),
+                "{told}"
+            );
+        }
     }
 
     #[test]

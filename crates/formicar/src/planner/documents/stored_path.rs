@@ -96,7 +96,7 @@ impl StoredPath {
             path: path.ok_or(AnswerError::NoPath {
                 status: stored.status,
             })?,
-            request: request.map(|r| r.onto(&defaults)).transpose()?,
+            request: request.map(|r| r.recorded_onto(&defaults)).transpose()?,
             poses: stored.path.map(|path| path.poses).unwrap_or_default(),
             hashes,
             numbers,

@@ -4,7 +4,7 @@ use super::explain::{gap_of, passable};
 use super::legs::leg_name;
 use crate::collision::ObstacleMap;
 use crate::geometry::{Point2, Pose2};
-use crate::map::{Cell, Components, Connectivity, GridFrame};
+use crate::map::{BitGrid, Cell, Components, Connectivity, GridFrame};
 use crate::planner::{Disconnected, Ended, Explanation, Stages, Task};
 use crate::progress::Status;
 use crate::search::widest_way_out;
@@ -25,7 +25,8 @@ pub(in crate::planner) struct AxleGround {
 impl AxleGround {
     /// Labels the parts for a vehicle.
     pub(in crate::planner) fn new(obstacles: &ObstacleMap, vehicle: &Vehicle) -> Self {
-        let disc_radius_m = vehicle.footprint().inradius().max(0.0);
+        let inradius_m = vehicle.footprint().inradius();
+        let disc_radius_m = inradius_m.max(0.0);
         // Only what blocks a position wherever it lies in its cell: from the cell's center to the
         // position half a diagonal, from the obstacle's center to its side half a cell.
         let distance = obstacles.distance();
@@ -33,8 +34,13 @@ impl AxleGround {
             - (FRAC_1_SQRT_2 - 0.5)
             - ROUNDING_CELLS;
         let limit = f64::from(distance.truncation_cells()) - 0.5;
-        let blocked = distance.within(radius.clamp(0.0, limit));
-        let blocked = blocked.unwrap_or_else(|| obstacles.lethal().clone());
+        let blocked = if inradius_m < 0.0 {
+            // An axle outside the body may pass over obstacles.
+            BitGrid::new(distance.n_cols(), distance.n_rows())
+        } else {
+            let blocked = distance.within(radius.clamp(0.0, limit));
+            blocked.unwrap_or_else(|| obstacles.lethal().clone())
+        };
         // A move from cell to cell may lead across a corner.
         let components = Components::new(&blocked, Connectivity::Eight);
         Self {

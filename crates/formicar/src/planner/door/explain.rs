@@ -3,7 +3,9 @@
 use crate::numeric::counted;
 use crate::planner::{Explanation, Gap, Task};
 use crate::progress::Status;
+use crate::scenario::{GoalHeading, Request};
 use crate::search::{Passage, widest_passage};
+use crate::vehicle::Gears;
 
 /// Why a search ended without a path: as a sentence, and in numbers.
 pub(super) fn explain(task: &Task, status: Status, n_steps: u64) -> (String, Explanation) {
@@ -42,11 +44,26 @@ pub(super) fn explain(task: &Task, status: Status, n_steps: u64) -> (String, Exp
 
 fn turning_fails(task: &Task, gap: &Gap, steps: &str) -> String {
     format!(
-        "{} searched all it can reach ({steps}); {}, so turning is what fails; hint: {}",
+        "{} searched all it can reach ({steps}); {}, so turning is what fails; hint: {}; {}",
         task.planner(),
         gap.in_words(),
+        relaxations(task.request()),
         task.search.hints().turning
     )
+}
+
+/// What the request demands and need not.
+fn relaxations(request: &Request) -> String {
+    let reverse = match request.gears {
+        Gears::Forward => "allow reverse, ",
+        Gears::Both => "",
+    };
+    let headings = match request.goal_heading {
+        GoalHeading::Exact => "allow other headings at the goal or ",
+        GoalHeading::Bidirectional => "allow any heading at the goal or ",
+        GoalHeading::Any => "",
+    };
+    format!("{reverse}{headings}widen the goal tolerance")
 }
 
 /// The hint for a search that more steps might help.

@@ -21,8 +21,8 @@ sections! {
 
 /// Advice where a search over motions finds no path.
 pub(super) const HINTS: Hints = Hints {
-    turning: "allow reverse, other headings or a wider goal tolerance; a smaller hybrid_astar.step_radii searches a finer lattice",
-    own_limit: "raise hybrid_astar.max_iterations",
+    turning: "a smaller hybrid_astar.step_radii searches a finer lattice",
+    own_limit: "a smaller hybrid_astar.step_radii searches a finer lattice, a larger hybrid_astar.max_iterations longer",
 };
 
 /// The abilities of searches that drive from pose to pose.
