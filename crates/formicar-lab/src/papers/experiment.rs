@@ -1,7 +1,5 @@
 //! The parts of an experiment: grounds, variants, and the number of runs.
 
-use crate::papers::trial::{Run, Trial};
-use crate::run::pool;
 use anyhow::{Context, Result};
 use formicar::map::OccupancyGrid;
 use formicar::map::builtin::BuiltinMap;
@@ -116,25 +114,4 @@ impl Ground {
             },
         })
     }
-}
-
-/// Runs every variant on every ground with every seed, and tells before each variant.
-pub(crate) fn run_all(
-    grounds: &[Ground],
-    variants: impl Fn(&Ground) -> Vec<Variant>,
-    setup: &Setup,
-    report_progress: &mut dyn FnMut(&str),
-) -> Result<Vec<Run>> {
-    let mut runs = Vec::new();
-    for ground in grounds {
-        for variant in variants(ground) {
-            report_progress(&format!("{}: {}", ground.map, variant.name));
-            let n_seeds = setup.scale.n_seeds as usize;
-            let of_variant = pool::map(setup.n_jobs, n_seeds, |seed| {
-                Trial::run(ground, &variant, seed as u64)
-            });
-            runs.extend(of_variant?);
-        }
-    }
-    Ok(runs)
 }

@@ -20,6 +20,20 @@ pub(crate) struct Quantity<R> {
     pub(crate) of: fn(&R) -> Option<f64>,
 }
 
+impl<R> Quantity<R> {
+    pub(crate) const fn new(
+        name: &'static str,
+        n_decimals: usize,
+        of: fn(&R) -> Option<f64>,
+    ) -> Self {
+        Self {
+            name,
+            n_decimals,
+            of,
+        }
+    }
+}
+
 /// Rows that belong together.
 #[derive(Clone, Debug)]
 pub(crate) struct Group<'a, R>(Vec<&'a R>);

@@ -38,9 +38,9 @@ pub enum MapError {
     /// An origin that is no pose.
     #[error("origin ({x}, {y}, {yaw}); all three must be finite numbers")]
     BadOrigin {
-        /// Metres.
+        /// Meters.
         x: f64,
-        /// Metres.
+        /// Meters.
         y: f64,
         /// Radians.
         yaw: f64,

@@ -13,7 +13,7 @@ use crate::vehicle::{AckermannAxles, Vehicle};
 /// Points of the planned path, at least so far apart and at most so many.
 const PLANNED_SPACING_M: f64 = 0.05;
 const MAX_PLANNED_POINTS: f64 = 2000.0;
-/// Errors below these fill no chart: half a centimetre, half a degree.
+/// Errors below these fill no chart: half a centimeter, half a degree.
 const LEAST_RANGE_M: f64 = 0.005;
 const LEAST_RANGE_DEG: f64 = 0.5;
 
@@ -28,7 +28,7 @@ pub struct DrivePicture<'a> {
     pub planned: &'a CurvePath,
     /// The result.
     pub drive: &'a Tracking,
-    /// The obstacle that the vehicle came nearest to or touched first, and its clearance in metres.
+    /// The obstacle that the vehicle came nearest to or touched first, and its clearance in meters.
     pub tightest: Option<(Point2, f64)>,
     /// Heading.
     pub title: &'a str,

@@ -5,12 +5,11 @@ use super::legend::{self, scale_bar};
 use super::lettering::{Anchor, Lettering};
 use super::markup::Element;
 use super::palette;
+use super::style::LEFT_PX;
 use super::svg::Svg;
 use super::ticks;
 use crate::geometry::Point2;
 
-/// Room for coordinates left of a panel or plot.
-pub(super) const LEFT_PX: f64 = 44.0;
 /// Room for coordinates below the panel.
 const BELOW_PX: f64 = 22.0;
 /// Room between the coordinates and the legend.

@@ -1,6 +1,6 @@
 //! The rules by which a bee draws a candidate beside a food source.
 
-use super::colony::Source;
+use super::source::Source;
 use crate::numeric::RandomStream;
 
 /// The rule for one coordinate j of a candidate, drawn at random; the others are those of the

@@ -25,7 +25,7 @@ pub use judge::{judge, judge_path};
 pub use report::{Certificate, Report, Violation, ViolationKind};
 pub use samples::{Samples, SamplesError};
 
-/// The largest gap between two segments: metres, and radians.
+/// The largest gap between two segments: meters, and radians.
 pub const JOINT_TOLERANCE: f64 = 1e-6;
 
 /// The share of the limit by which a curvature or its rate of change may exceed it.

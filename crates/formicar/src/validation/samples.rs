@@ -1,4 +1,4 @@
-//! Foreign paths as tables: CSV of `x, y[, heading]`, metres and radians.
+//! Foreign paths as tables: CSV of `x, y[, heading]`, meters and radians.
 
 use super::foreign::{deviation_m, path_through_points, path_through_poses};
 use crate::geometry::{Point2, Pose2};
@@ -12,7 +12,7 @@ pub struct Samples {
     pub points: Vec<Point2>,
     /// As many headings, where the file has them.
     pub headings: Option<Vec<f64>>,
-    /// Half a unit of the last decimal of the positions, where they are written to the millimetre
+    /// Half a unit of the last decimal of the positions, where they are written to the millimeter
     /// or finer; 0 for coarser ones, which are taken at their word.
     pub rounding_m: f64,
 }
@@ -108,7 +108,7 @@ impl Samples {
         Ok(samples)
     }
 
-    /// The largest distance between the path and a sample, metres: both are rounded.
+    /// The largest distance between the path and a sample, meters: both are rounded.
     pub fn deviation_m(&self) -> f64 {
         deviation_m(self.rounding_m)
     }

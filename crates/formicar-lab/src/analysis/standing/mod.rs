@@ -8,21 +8,10 @@ mod rivals;
 mod tables;
 
 pub use peers::Peer;
+pub use rivals::Standing;
 
 use crate::report::{Report, Section};
-use crate::run::RunRecord;
 use numbers::Runs;
-
-/// Runs of some planners, and the results of peers on the same scenarios.
-#[derive(Clone, Debug, Default)]
-pub struct Standing {
-    /// The runs.
-    pub runs: Vec<RunRecord>,
-    /// The peers, if any are known.
-    pub peers: Vec<Peer>,
-    /// True if the runs could drive forward only: their peers are those that drive Dubins curves.
-    pub forward_only: bool,
-}
 
 impl Standing {
     /// Goals, variants, peers and all runs, in this order.

@@ -1,7 +1,9 @@
 //! Runs as sections of a report.
 
+use super::goals;
 use super::numbers::{Runs, first_s, median, p90};
-use super::{Peer, Standing, goals};
+use super::peers::Peer;
+use super::rivals::Standing;
 use crate::report::{Block, Field, Section, Table};
 use crate::run::{RunRecord, RunStatus, number};
 

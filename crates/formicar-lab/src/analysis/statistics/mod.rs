@@ -11,7 +11,7 @@ mod wilson;
 pub use bootstrap::bootstrap_median;
 pub use effect::vargha_delaney_a;
 pub use holm::holm;
-pub use wilcoxon::{SignedRanks, Wilcoxon, wilcoxon, wilcoxon_normal};
+pub use wilcoxon::{SignedRanks, Wilcoxon, rank_balance, wilcoxon, wilcoxon_normal};
 pub use wilson::wilson_interval;
 
 /// The quantile `p` in 0 to 1 of values in any order, by linear interpolation between order

@@ -193,13 +193,13 @@ mod tests {
             of: 31,
         };
         let claims = Claims(vec![
-            Claim::paired(
+            Claim::new(
                 "shorter",
                 "sec. 5",
                 "1 : 2",
                 vec![comparison("a"), comparison("b")],
             ),
-            Claim::counted("arrives", "sec. 6", "-", vec![count]),
+            Claim::new("arrives", "sec. 6", "-", vec![count]),
         ]);
         let (verdicts, tests) = (claims.verdicts(), claims.tests());
         let Block::Table(verdicts) = &verdicts.blocks[0] else {

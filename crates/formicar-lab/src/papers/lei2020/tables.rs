@@ -1,6 +1,6 @@
 //! Table 1 of the paper, and the variants of each map.
 
-use super::{COLONIES, MAPS};
+use super::variants::{COLONIES, MAPS};
 use crate::papers::group::{Column, ratio, table_of};
 use crate::papers::trial::Trial;
 use crate::papers::trials::{Measure, Runs};

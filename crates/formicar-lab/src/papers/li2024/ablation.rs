@@ -1,8 +1,7 @@
 //! Each term of the proposed method switched off, with the same seeds.
 
-use super::claims::{COST, DRIVEN, STEP, TIME};
 use super::drive::Drive;
-use super::group::drives_of;
+use super::group::{ABLATION, COST, DRIVEN, STEP, TIME, drives_of};
 use super::methods::PROPOSED;
 use crate::papers::claims::{Claim, Claims, Expected};
 use crate::papers::experiment::Variant;
@@ -18,9 +17,6 @@ use formicar::colony::evaporation::{Constant, Evaporation, Generational, Recursi
 use formicar::colony::heuristic::Guidance;
 use formicar::planner::{AstarParameters, ChordParameters, PlannerName};
 use formicar::smoothing::{Corners, RedundantNodes};
-
-/// The part of the experiment.
-pub(super) const ABLATION: &str = "ablation";
 
 /// The method as it is, then with each of its terms off, and two that tell what ants and arcs
 /// bring apart.
@@ -147,11 +143,11 @@ fn paired(drives: &[Drive], variants: &[Variant], key: &str, quantity: &Quantity
         let name = variant.name.clone();
         group(variant).compare(&first, quantity, name, Expected::Less)
     };
-    let claims = Claims(vec![Claim::paired(
+    let claims = Claims(vec![Claim::new(
         "Each is less than the first",
         "",
         "-",
-        others.iter().map(compare).collect(),
+        others.iter().map(compare).collect::<Vec<_>>(),
     )]);
     for test in &claims.judged()[0].tests {
         table.row(vec![

@@ -22,16 +22,13 @@ use crate::papers::parameters;
 use crate::papers::reproduction::{Reproduction, at_a_time, configs_of, csv, facts_of, seeds};
 use crate::report::{Block, Fact, Report, Section};
 use crate::run::pool;
-use ablation::ABLATION;
 use anyhow::Result;
 use drive::{DrawnRun, Drive, Job};
 use generations::CostHistory;
 use grounds::{hood, neighborhood, shortest_m};
+use group::{ABLATION, COMPARISON, HOOD};
 use methods::{Method, Native, methods};
-use tables::{COMPARISON, Comparison, over_scenarios};
-
-/// The part of the experiment on the scenarios of the data set.
-const HOOD: &str = "hood";
+use tables::{Comparison, over_scenarios};
 
 /// Compares all methods on the built-in neighborhood and, where the data set is present, on its
 /// ten scenarios; switches each term of FACO off; and lets its map grow.

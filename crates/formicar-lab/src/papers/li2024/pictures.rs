@@ -1,10 +1,8 @@
 //! All methods in one picture.
 
-use super::claims::{DRIVEN, LENGTH, STEP, TIME};
 use super::drive::{DrawnRun, Drive};
-use super::group::drives_of;
+use super::group::{COMPARISON, DRIVEN, LENGTH, STEP, TIME, drives_of};
 use super::methods::PROPOSED;
-use super::tables::COMPARISON;
 use crate::papers::drawn_run::strips_of;
 use crate::papers::experiment::Ground;
 use crate::papers::group::Quantity;

@@ -2,7 +2,7 @@
 
 use super::drive::{Drive, Job};
 use super::grounds::shortest_m;
-use super::group::drives_of;
+use super::group::{SCALING, drives_of};
 use super::methods::{Method, PROPOSED};
 use crate::papers::experiment::{Ground, Scale, Variant};
 use crate::papers::group::ratio;
@@ -12,9 +12,6 @@ use formicar::map::generate::{NeighborhoodParameters, alley_neighborhood, free_p
 use formicar::numeric::Seed;
 use formicar::scenario::{GoalHeading, Request};
 use formicar::vehicle::Vehicle;
-
-/// The part of the experiment.
-pub(super) const SCALING: &str = "scaling";
 
 /// Columns and rows, from a quarter of the paper's map to twenty-five times as many cells.
 const SIZES: [[usize; 2]; 4] = [[400, 250], [800, 500], [1600, 1000], [4000, 2500]];

@@ -1,14 +1,11 @@
 //! The paper's two tables beside ours.
 
 use super::drive::Drive;
-use super::group::{Drives, drives_of};
+use super::group::{COMPARISON, Drives, drives_of};
 use super::methods::{Method, Native, PROPOSED, YARDSTICK};
 use super::paper::stated;
 use crate::papers::group::{Column, ratio, table_of};
 use crate::report::{Field, Table};
-
-/// The part of the experiment in which methods are compared.
-pub(super) const COMPARISON: &str = "comparison";
 
 /// All runs of a comparison on one ground.
 #[derive(Clone, Copy, Debug)]

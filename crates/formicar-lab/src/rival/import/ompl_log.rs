@@ -1,7 +1,7 @@
 //! A benchmark log of OMPL (Moll, Sucan & Kavraki 2015, *Benchmarking motion planning
 //! algorithms*): rows of metrics for each run of each planner, without paths.
 
-use super::Imported;
+use super::imported::Imported;
 use anyhow::{Context, Result, anyhow, bail};
 use std::iter::{Enumerate, Peekable};
 use std::str::Lines;
