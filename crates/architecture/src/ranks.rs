@@ -37,7 +37,6 @@ pub const CLI: &[&str] = &[
     "values",
     "output",
     "settings",
-    "clock",
     "scene",
     "mode_args",
     "path_file",

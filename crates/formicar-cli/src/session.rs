@@ -1,6 +1,5 @@
 //! A planner with the scene it was prepared for, and its answers to requests.
 
-use crate::clock::{Clock, Watch};
 use crate::failure::Ending;
 use crate::scene::Scene;
 use anyhow::Result;
@@ -9,7 +8,8 @@ use formicar::numeric::Seed;
 use formicar::planner::{
     Answer, AnswerContext, Outcome, PlanError, Planner, PlannerConfig, RequestDocument, Timing,
 };
-use formicar::progress::AntFrames;
+use formicar::progress::{AntFrames, StdClock};
+use formicar::scenario::Request;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -66,26 +66,26 @@ impl Session {
         defaults: &RequestDocument,
         seed: Seed,
     ) -> Answered {
-        let mut watch = Watch {
-            clock: Clock::begin(),
-            ants: self.ants.as_mut(),
-        };
-        let planned = request.onto(defaults).map_err(PlanError::from);
-        let request = planned.as_ref().ok().cloned();
-        let result = planned.and_then(|request| self.planner.plan(&request, seed, &mut watch));
-        let clock = watch.clock;
+        let request = request.onto(defaults).map_err(PlanError::from);
+        self.plan(request, seed)
+    }
+
+    /// Plans a request, or answers one that cannot be asked.
+    pub(crate) fn plan(&mut self, request: Result<Request, PlanError>, seed: Seed) -> Answered {
+        let mut watch = (StdClock::start(), self.ants.as_mut());
+        let asked = request.as_ref().ok().cloned();
+        let result = request.and_then(|request| self.planner.plan(&request, seed, &mut watch));
+        let clock = watch.0;
         let timing = Timing {
             map_setup_s: self.map_setup_s,
-            first_feasible_s: clock.first_feasible_s(),
-            query_s: clock.query_s(),
+            first_feasible_s: clock.first_path().map(|time| time.as_secs_f64()),
+            query_s: clock.now().as_secs_f64(),
             total_s: self.begun.elapsed().as_secs_f64(),
         };
         Answered {
-            answer: self
-                .context()
-                .answer(request.as_ref(), seed, &result, timing),
+            answer: self.context().answer(asked.as_ref(), seed, &result, timing),
             result,
-            n_improvements: clock.n_improvements(),
+            n_improvements: clock.n_paths().saturating_sub(1),
         }
     }
 

@@ -1,8 +1,9 @@
 //! Runs of colonies, carried out and grouped by map and variant.
 
+use crate::analysis::statistics::distinct;
 use crate::papers::claims::{Comparison, Expected};
 use crate::papers::experiment::{Ground, Setup, Variant};
-use crate::papers::group::{Group, Quantity, ResultRow, distinct};
+use crate::papers::group::{Group, Quantity, ResultRow};
 use crate::papers::trial::{Moment, Run, Trial};
 use crate::report::{BoxPlot, Trend, TrendPanel, Trends};
 use crate::run::pool;

@@ -10,6 +10,7 @@ mod tables;
 pub use peers::Peer;
 pub use rivals::Standing;
 
+use crate::analysis::statistics::distinct;
 use crate::report::{Report, Section};
 use numbers::Runs;
 
@@ -54,13 +55,7 @@ impl Standing {
 
     /// The planners, in the order of their first runs; the plain one of variants first.
     fn planners(&self) -> Vec<&str> {
-        let mut names: Vec<&str> = Vec::new();
-        for run in &self.runs {
-            if !names.contains(&run.planner.as_str()) {
-                names.push(&run.planner);
-            }
-        }
-        names
+        distinct(self.runs.iter().map(|run| run.planner.as_str()))
     }
 
     fn runs_of(&self, planner: &str) -> Runs<'_> {

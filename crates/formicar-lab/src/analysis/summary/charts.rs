@@ -207,10 +207,12 @@ mod tests {
 
     fn run(planner: &str, seed: u64, is_solved: bool) -> Run {
         let mut run = Run::default();
-        run.record.fill(&json!({
-            "scenario": "s", "planner": planner, "seed": seed, "length_m": 10.0,
-            "status": if is_solved { "found" } else { "no_path" }, "valid": is_solved,
-        }));
+        run.record
+            .fill(&json!({
+                "scenario": "s", "planner": planner, "seed": seed, "length_m": 10.0,
+                "status": if is_solved { "found" } else { "no_path" }, "valid": is_solved,
+            }))
+            .unwrap();
         if is_solved {
             let improvement = |at_s, length_m| Improvement {
                 at_s,

@@ -96,7 +96,7 @@ mod tests {
             run.record.fill(&json!({
                 "scenario": "s", "planner": planner, "seed": 0, "status": "found", "valid": true,
                 "length_m": length_m, "query_s": 0.5, "peak_rss_bytes": 3e7,
-            }));
+            })).unwrap();
             run.history.improvements = vec![Improvement {
                 at_s: 0.25,
                 steps: 7,

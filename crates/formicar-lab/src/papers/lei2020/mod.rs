@@ -45,10 +45,7 @@ fn report(grounds: &[Ground], runs: Runs) -> Result<Report> {
         sections.push(of_map(map.name, runs));
     }
     sections.push(claims.tests());
-    sections.push(parameters::section(
-        parameters::LEI2020,
-        &Variant::of(PlannerName::Lei2020),
-    )?);
+    sections.push(parameters::section(&Variant::of(PlannerName::Lei2020))?);
     sections.push(correspondence::section(PLACES));
     Ok(Report {
         name: "lei2020".to_owned(),

@@ -3,10 +3,10 @@
 use super::drive::Drive;
 use super::group::{ABLATION, COST, DRIVEN, STEP, TIME, drives_of};
 use super::methods::PROPOSED;
-use crate::papers::claims::{Claim, Claims, Expected};
+use crate::papers::claims::{Claim, Claims, Expected, Tested};
 use crate::papers::experiment::Variant;
-use crate::papers::group::{Column, Quantity, ratio, table_of};
-use crate::report::{Block, Field, Section, Table};
+use crate::papers::group::{GroupColumn, Quantity, ratio, table_of};
+use crate::report::{Block, Column, Field, Section, Table};
 use formicar::colony::chord::{
     ChordConfig, ChordTransition, CornerRule, CornerTerm, Depositor, DistanceTerm, Safety,
     SteeringLimit, StraightnessUse,
@@ -110,7 +110,7 @@ fn outcomes(drives: &[Drive], variants: &[Variant]) -> Table {
         .map(|name| (name, drives_of(drives, ABLATION, name)))
         .collect();
     let first = groups.first().and_then(|(_, first)| first.median(TIME.of));
-    let columns: [Column<Drive>; 6] = [
+    let columns: [GroupColumn<Drive>; 6] = [
         ("certified", &|g, _| g.certified()),
         ("driven m", &|g, _| g.spread(DRIVEN.of, 2)),
         ("largest step deg", &|g, _| g.spread(STEP.of, 1)),
@@ -132,8 +132,6 @@ fn paired(drives: &[Drive], variants: &[Variant], key: &str, quantity: &Quantity
          often the variant has the larger value.",
         quantity.name
     );
-    let heading = ["variant", "pairs", "difference", "p", "p, Holm", "A"];
-    let mut table = Table::new(key, &heading).captioned(&caption);
     let group = |variant: &Variant| drives_of(drives, ABLATION, &variant.name);
     let (first, others) = variants
         .split_first()
@@ -149,17 +147,17 @@ fn paired(drives: &[Drive], variants: &[Variant], key: &str, quantity: &Quantity
         "-",
         others.iter().map(compare).collect::<Vec<_>>(),
     )]);
-    for test in &claims.judged()[0].tests {
-        table.row(vec![
-            Field::words(&test.comparison.name),
-            Field::Number(Some(test.comparison.pairs.len() as f64), 0),
-            Field::Spread(test.difference, quantity.n_decimals),
-            Field::Number(test.p, 4),
-            Field::Number(test.p_holm, 4),
-            Field::Number(test.a, 2),
-        ]);
-    }
-    table
+    let columns: [Column<&Tested>; 6] = [
+        ("variant", &|test| Field::words(&test.comparison.name)),
+        ("pairs", &|test| Field::count(test.comparison.pairs.len())),
+        ("difference", &|test| {
+            Field::Spread(test.difference, quantity.n_decimals)
+        }),
+        ("p", &|test| Field::Number(test.p, 4)),
+        ("p, Holm", &|test| Field::Number(test.p_holm, 4)),
+        ("A", &|test| Field::Number(test.a, 2)),
+    ];
+    Table::of(key, &claims.judged()[0].tests, &columns).captioned(&caption)
 }
 
 #[cfg(test)]

@@ -41,7 +41,8 @@ pub(super) fn claims(drives: &[Drive], methods: &[&str], ground: &str) -> Claims
             | "63.74 : 857.26, 100.61 and 350.66 s: 92.56, 57.84 and 81.82 % less"
             => less(&["astar", "ga", "aco"], &TIME);
         "Takes less time than improved A*, AGA and ACOF" | "Table 1"
-            | "63.74 : 591.73, 123.67 and 153.71 s" => less(&["improved-astar", "aga", "acof"], &TIME);
+            | "63.74 : 591.73, 123.67 and 153.71 s"
+            => less(&["improved-astar", "aga", "acof"], &TIME);
         "Its path is shorter than those of improved A*, AGA and ACOF" | "Table 1, sec. 5.2"
             | "92.98 : 93.57, 93.36 and 94.97 m: 0.63, 0.40 and 2.10 % less"
             => less(&["improved-astar", "aga", "acof"], &LENGTH);

@@ -5,9 +5,10 @@ mod axes;
 mod fit;
 mod sample;
 
+use crate::analysis::statistics::distinct;
 use crate::analysis::statistics::quartiles;
 use crate::papers::experiment::{Ground, Setup, Variant};
-use crate::papers::group::distinct;
+
 use crate::papers::reproduction::{Reproduction, configs_of, csv, facts_of, seeds};
 use crate::report::{Block, Fact, Field, Report, Section, Table, Trend, TrendPanel, Trends};
 use anyhow::Result;

@@ -3,7 +3,7 @@
 use crate::analysis::statistics::quartiles;
 use crate::papers::claims::{Comparison, Expected};
 use crate::papers::experiment::Scale;
-use crate::report::{Block, Field, Section, Table, Trend, TrendPanel, Trends};
+use crate::report::{Block, Column, Field, Section, Table, Trend, TrendPanel, Trends};
 use crate::run::measure;
 use anyhow::Result;
 use formicar::colony::Adjacency;
@@ -74,37 +74,29 @@ fn table(timings: &[Timing]) -> Table {
                    figure 9: milliseconds, medians with quartiles of repeated calculations. The \
                    global calculation looks at all pairs of cells, the analytical one at neighbors. \
                    `move masks` are what the colonies here use instead.";
-    let mut table = Table::new(
-        "adjacency",
-        &[
-            "map",
-            "global ms",
-            "paper's ms",
-            "analytical ms",
-            "paper's, ms",
-            "ratio",
-            "paper's ratio",
-            "move masks ms",
-        ],
-    )
-    .captioned(caption);
-    for timing in timings {
-        let [global, analytical, masks] =
-            [&timing.global, &timing.analytical, &timing.masks].map(|times| quartiles(times));
-        let paper = |value: f64, n| Field::Number((timing.side == SIDE).then_some(value), n);
-        let ratio = global.zip(analytical).map(|(a, b)| a[1] / b[1]);
-        table.row(vec![
-            Field::Words(format!("{0} x {0}", timing.side)),
-            Field::Spread(global, 4),
-            paper(PAPER_MS[0], 4),
-            Field::Spread(analytical, 4),
-            paper(PAPER_MS[1], 4),
-            Field::Number(ratio, 1),
-            paper(PAPER_MS[0] / PAPER_MS[1], 1),
-            Field::Spread(masks, 5),
-        ]);
-    }
-    table
+    let of_paper = |timing: &Timing, value: f64, n_decimals| {
+        Field::Number((timing.side == SIDE).then_some(value), n_decimals)
+    };
+    let ratio = |timing: &Timing| {
+        let medians = quartiles(&timing.global).zip(quartiles(&timing.analytical));
+        medians.map(|(global, analytical)| global[1] / analytical[1])
+    };
+    let [global_ms, analytical_ms] = PAPER_MS;
+    let columns: [Column<&Timing>; 8] = [
+        ("map", &|t| Field::Words(format!("{0} x {0}", t.side))),
+        ("global ms", &|t| Field::Spread(quartiles(&t.global), 4)),
+        ("paper's ms", &|t| of_paper(t, global_ms, 4)),
+        ("analytical ms", &|t| {
+            Field::Spread(quartiles(&t.analytical), 4)
+        }),
+        ("paper's, ms", &|t| of_paper(t, analytical_ms, 4)),
+        ("ratio", &|t| Field::Number(ratio(t), 1)),
+        ("paper's ratio", &|t| {
+            of_paper(t, global_ms / analytical_ms, 1)
+        }),
+        ("move masks ms", &|t| Field::Spread(quartiles(&t.masks), 5)),
+    ];
+    Table::of("adjacency", timings, &columns).captioned(caption)
 }
 
 /// Figure 9.

@@ -8,7 +8,7 @@ mod variants;
 use crate::papers::correspondence;
 use crate::papers::drawn_run::{DrawnRun, Line, overlay};
 use crate::papers::experiment::{Ground, Setup, Variant};
-use crate::papers::group::{Column, Group, table_of};
+use crate::papers::group::{Group, GroupColumn, table_of};
 use crate::papers::parameters;
 use crate::papers::reproduction::Reproduction;
 use crate::papers::trial::Trial;
@@ -37,10 +37,7 @@ pub fn wang2019(setup: &Setup, report_progress: &mut dyn FnMut(&str)) -> Result<
     sections.push(adjacency::section(&timings));
     sections.push(steps::section());
     sections.push(claims.tests());
-    sections.push(parameters::section(
-        parameters::WANG2019,
-        &Variant::of(PlannerName::Wang2019),
-    )?);
+    sections.push(parameters::section(&Variant::of(PlannerName::Wang2019))?);
     sections.push(correspondence::section(PLACES));
     let report = Report {
         name: "wang2019".to_owned(),
@@ -90,7 +87,7 @@ fn of_map(map: &str, figure: &str, ground: &Ground, runs: Runs) -> Result<Sectio
 
 fn table(map: &str, runs: Runs) -> Table {
     let n_squeezing = |g: &Group<Trial>| g.count(|t| t.n_squeezes.is_some_and(|n| n > 0)) as f64;
-    let columns: [Column<Trial>; 7] = [
+    let columns: [GroupColumn<Trial>; 7] = [
         ("arrived", &|g, _| {
             Field::Count(g.count(|trial| trial.arrived), g.len())
         }),
