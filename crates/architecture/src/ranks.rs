@@ -50,6 +50,7 @@ pub const CLI: &[&str] = &[
 
 /// The lab.
 pub const LAB: &[&str] = &[
+    "words",
     "analysis::statistics",
     "report",
     "rival",

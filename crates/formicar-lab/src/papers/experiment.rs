@@ -3,7 +3,7 @@
 use anyhow::{Context, Result};
 use formicar::map::OccupancyGrid;
 use formicar::map::builtin::BuiltinMap;
-use formicar::planner::{PlannerConfig, PlannerName};
+use formicar::planner::{PlanError, Planner, PlannerConfig, PlannerName};
 use formicar::scenario::{GoalHeading, Request, StartHeading};
 use formicar::vehicle::Vehicle;
 use std::any::Any;
@@ -98,6 +98,11 @@ pub struct Ground {
 }
 
 impl Ground {
+    /// A planner for its map and vehicle.
+    pub(crate) fn planner(&self, config: &PlannerConfig) -> Result<Planner, PlanError> {
+        Planner::new(&self.grid, self.vehicle.clone(), config.clone())
+    }
+
     /// A built-in map with its first request and its own vehicle.
     pub(crate) fn builtin(map: &str) -> Result<Self> {
         let builtin = BuiltinMap::by_name(map)?;

@@ -61,7 +61,7 @@ impl Tuning {
         let rows: Vec<&TunedRun> = runs.iter().flatten().flatten().collect();
         let json = |config: &PlannerConfig| serde_json::to_string_pretty(config);
         Ok(Verdict {
-            report: self.report((state, &best), &pairs, picture.clone()),
+            report: self.report(state, &best, &pairs, picture.clone()),
             convergence_svg: picture,
             runs_csv: csv(&rows)?,
             cycles_csv: csv(state.colony.history())?,
@@ -101,50 +101,35 @@ impl Tuning {
         facts
     }
 
-    fn report(
-        &self,
-        (state, best): (&TuningState, &[f64]),
-        pairs: &[Pairs],
-        svg: String,
-    ) -> Report {
-        let mut sections = vec![Section::of_table("What was found", self.parameters(best))];
-        let search = Section {
-            heading: "The search".to_owned(),
-            blocks: vec![
-                Block::Text(self.describe_search(state)),
-                Block::Figure(Figure {
-                    caption: "The objective on the scenarios tuned on: the least so far, and that \
-                              of the middle food source after each cycle."
-                        .to_owned(),
-                    svg,
-                }),
-                Block::Table(gains(state)),
-            ],
-        };
-        sections.push(search);
-        if pairs.is_empty() {
-            sections.push(Section {
-                heading: "Held back".to_owned(),
-                blocks: vec![Block::Text(
-                    "Nothing was held back, so nothing is known of other scenarios.".to_owned(),
-                )],
-            });
+    fn report(&self, state: &TuningState, best: &[f64], pairs: &[Pairs], svg: String) -> Report {
+        let search = vec![
+            Block::Text(self.describe_search(state)),
+            Block::Figure(Figure {
+                caption: "The objective on the scenarios tuned on: the least so far, and that of \
+                          the middle food source after each cycle."
+                    .to_owned(),
+                svg,
+            }),
+            Block::Table(gains(state)),
+        ];
+        let held_back = if pairs.is_empty() {
+            let words = "Nothing was held back, so nothing is known of other scenarios.";
+            Section::new("Held back", vec![Block::Text(words.to_owned())])
         } else {
             let (table, words) = summary(pairs);
-            sections.push(Section {
-                heading: "Held back: default against tuned".to_owned(),
-                blocks: vec![
-                    Block::Text(words),
-                    Block::Table(table),
-                    Block::Table(scenarios(pairs)),
-                ],
-            });
-        }
+            let tables = [table, scenarios(pairs)].map(Block::Table);
+            let blocks = [Block::Text(words)].into_iter().chain(tables).collect();
+            Section::new("Held back: default against tuned", blocks)
+        };
         Report {
             name: "tuning".to_owned(),
             title: format!("Tuning of {}", self.planner_name()),
             intro: self.intro(),
-            sections,
+            sections: vec![
+                Section::of_table("What was found", self.parameters(best)),
+                Section::new("The search", search),
+                held_back,
+            ],
         }
     }
 

@@ -74,15 +74,15 @@ pub fn drive_charts(trace: &[TracePoint], vehicle: &Vehicle) -> Vec<Chart> {
         Chart {
             limits: wheel_limits(vehicle),
             height_px: 150.0,
-            ..strip(trace, ("front wheels", "degrees"), wheels(trace))
+            ..strip(trace, "front wheels", "degrees", wheels(trace))
         },
         Chart {
             y: around_zero("m", &cross_track, LEAST_RANGE_M),
-            ..strip(trace, ("cross-track error", "m"), vec![cross_track])
+            ..strip(trace, "cross-track error", "m", vec![cross_track])
         },
         Chart {
             y: around_zero("degrees", &heading, LEAST_RANGE_DEG),
-            ..strip(trace, ("heading error", "degrees"), vec![heading])
+            ..strip(trace, "heading error", "degrees", vec![heading])
         },
     ];
     stacked(charts, "time, s")
@@ -104,7 +104,7 @@ fn draw_planned(scene: &mut Scene, planned: &CurvePath, label: &str) {
     scene.polyline(&points, &style);
 }
 
-fn strip(trace: &[TracePoint], (title, unit): (&str, &str), series: Vec<Series>) -> Chart {
+fn strip(trace: &[TracePoint], title: &str, unit: &str, series: Vec<Series>) -> Chart {
     let duration_s = trace.last().map_or(0.0, |p| p.t_s);
     Chart {
         title: title.to_owned(),

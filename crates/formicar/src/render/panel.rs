@@ -35,7 +35,7 @@ impl Scene {
 
         let row = corner + Point2::new(0.0, panel.y + BELOW_PX + LEGEND_GAP_PX);
         let indent_px = self.draw_scale_bar(svg, row);
-        self.legend.draw(svg, row, (panel.x, indent_px));
+        self.legend.draw(svg, row, panel.x, indent_px);
     }
 
     /// Draws the panel alone, without coordinates and legend.
@@ -55,7 +55,7 @@ impl Scene {
     }
 
     fn draw_scale_bar(&self, svg: &mut Svg, at: Point2) -> f64 {
-        scale_bar(svg, at, (self.panel_px().x, self.view.px_per_m()))
+        scale_bar(svg, at, self.panel_px().x, self.view.px_per_m())
     }
 
     fn draw_coordinates(&self, svg: &mut Svg, corner: Point2) {

@@ -296,7 +296,7 @@ impl BeeColony {
             // Draws of onlookers' choices stand before those of their searches.
             let mut random = self.stream(phase, bee + self.sources.len());
             let rule = drawn(&shares, &mut random);
-            let candidate = rules[rule].candidate((&self.sources, i), &best, &mut random);
+            let candidate = rules[rule].candidate(&self.sources, i, &best, &mut random);
             (rule, candidate)
         };
         let (rules, candidates): (Vec<usize>, Vec<Vec<f64>>) =

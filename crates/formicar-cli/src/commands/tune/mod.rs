@@ -51,8 +51,7 @@ fn tuning(args: &TuneArgs) -> Result<Tuning> {
     }
     let settings = settings::load(args.config.as_deref(), &args.set, Some(args.planner))?;
     let base = settings.for_motion(Motion::Car);
-    let chosen = (&args.parameter[..], &args.group[..]);
-    let (space, left_out) = TuningSpace::new(&base, chosen, &args.range)?;
+    let (space, left_out) = TuningSpace::new(&base, &args.parameter, &args.group, &args.range)?;
     if !left_out.is_empty() {
         let keys = left_out.join(", ");
         note(&format!(

@@ -11,7 +11,7 @@ use formicar::geometry::Point2;
 use formicar::metrics::SteeringShare;
 use formicar::numeric::Seed;
 use formicar::objective::{SteeredLine, SteeringCost};
-use formicar::planner::{Outcome, Planner};
+use formicar::planner::Outcome;
 use formicar::scenario::StartHeading;
 use formicar::vehicle::SuspensionParameters;
 use serde::Serialize;
@@ -84,10 +84,8 @@ pub(super) struct Drawn {
 impl Job<'_> {
     /// Runs with a seed: map set-up, query and judge.
     pub(super) fn run(&self, seed: u64) -> Result<(Drive, Outcome)> {
-        let (ground, config) = (self.ground, self.variant.config.clone());
-        let setup = measure(&mut (), |_| {
-            Planner::new(&ground.grid, ground.vehicle.clone(), config)
-        });
+        let ground = self.ground;
+        let setup = measure(&mut (), |_| ground.planner(&self.variant.config));
         let mut planner = setup.answer?;
         let query = measure(&mut (), |observer| {
             planner.plan(&ground.request, Seed(seed), observer)

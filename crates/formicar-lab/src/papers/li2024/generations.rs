@@ -9,7 +9,6 @@ use anyhow::Result;
 use formicar::geometry::Point2;
 use formicar::map::{BitGrid, DiagonalRule};
 use formicar::numeric::Seed;
-use formicar::planner::Planner;
 use formicar::progress::{AntWays, Event, IterationRecord, Observer, StdClock};
 use formicar::render::AxisScale;
 use formicar::smoothing::RedundantNodes;
@@ -62,9 +61,8 @@ pub(super) fn watch(
     };
     let (mut runs, mut progress) = (Vec::new(), Vec::new());
     for seed in 0..n_seeds {
-        let config = job.variant.config.clone();
         let clock = StdClock::start();
-        let mut planner = Planner::new(&job.ground.grid, job.ground.vehicle.clone(), config)?;
+        let mut planner = job.ground.planner(&job.variant.config)?;
         let mut watcher = Watcher {
             source: &source,
             generations: Vec::new(),

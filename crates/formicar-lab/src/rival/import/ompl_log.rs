@@ -213,7 +213,7 @@ mod tests {
         };
         let log = OmplLog {
             version: "0.1.0".to_owned(),
-            properties: kinds.map(|(name, kind)| Property::new(name, kind)).into(),
+            properties: kinds.map(|(name, kind)| Property { name, kind }).into(),
             planners: vec![OmplPlanner {
                 name: "hybrid-astar".to_owned(),
                 runs: vec![run(1.0, Some(6.0)), run(0.0, None)],

@@ -34,7 +34,7 @@ impl Chart {
         let legend = self.legend();
         if !legend.is_empty() {
             let below = Point2::new(self.left_px(), self.height_without_legend_px());
-            legend.draw(svg, at + below, (self.plot_width_px(width_px), 0.0));
+            legend.draw(svg, at + below, self.plot_width_px(width_px), 0.0);
         }
     }
 
