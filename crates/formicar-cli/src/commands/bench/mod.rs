@@ -92,12 +92,12 @@ fn into_folder(
         }
     }
     let mut results = Folder::open(folder, &campaign, &args.conditions())?;
-    files::write(&folder.join("MACHINE.md"), &machine::description())?;
+    files::write(&folder.join("MACHINE.md"), machine::description())?;
     results.note_runs_at_once(args.jobs)?;
     let n_runs = carry_out_in_processes(&campaign, &mut results, args.jobs)?;
     let records = results.finish()?;
     let summary = Summary::new(&records);
-    files::write(&folder.join("summary.md"), &summary.markdown())?;
+    files::write(&folder.join("summary.md"), summary.markdown())?;
     for (name, text) in standing::files(args, &campaign, peers, records) {
         files::write(&folder.join(name), &text)?;
     }

@@ -217,7 +217,6 @@ mod tests {
             planners: vec![OmplPlanner {
                 name: "hybrid-astar".to_owned(),
                 runs: vec![run(1.0, Some(6.0)), run(0.0, None)],
-                ..OmplPlanner::default()
             }],
             ..OmplLog::default()
         };
