@@ -37,7 +37,6 @@ pub const CLI: &[&str] = &[
     "values",
     "output",
     "settings",
-    "clock",
     "scene",
     "mode_args",
     "path_file",
@@ -51,6 +50,7 @@ pub const CLI: &[&str] = &[
 
 /// The lab.
 pub const LAB: &[&str] = &[
+    "words",
     "analysis::statistics",
     "report",
     "rival",

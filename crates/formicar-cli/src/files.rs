@@ -1,6 +1,7 @@
-//! Input text of bounded size, from files and from stdin.
+//! Input text of bounded size, from files and from stdin; files and folders for results.
 
 use anyhow::{Context, Result, bail};
+use formicar::map::format::write_atomically;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -20,6 +21,18 @@ pub(crate) fn read_document(path: &Path) -> Result<String> {
         return bounded(std::io::stdin().lock()).context("stdin cannot be read");
     }
     read_text(path)
+}
+
+/// Writes a whole file, or nothing.
+pub(crate) fn write(path: &Path, bytes: impl AsRef<[u8]>) -> Result<()> {
+    write_atomically(path, bytes.as_ref())
+        .with_context(|| format!("{} cannot be written", path.display()))
+}
+
+/// Makes a folder that does not exist yet.
+#[cfg(feature = "lab")]
+pub(crate) fn make_folder(path: &Path) -> Result<()> {
+    std::fs::create_dir_all(path).with_context(|| format!("{} cannot be made", path.display()))
 }
 
 fn bounded(source: impl Read) -> Result<String> {

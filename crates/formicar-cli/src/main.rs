@@ -5,7 +5,6 @@
 
 mod ants;
 mod cli;
-mod clock;
 mod commands;
 mod failure;
 mod files;

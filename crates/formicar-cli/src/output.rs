@@ -1,7 +1,10 @@
-//! Output files: checked before planning, and written in one piece.
+//! Output: files, checked before planning and written in one piece, and JSON on stdout.
 
+use crate::files;
 use anyhow::{Context, Result, bail};
+use serde::Serialize;
 use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// An output file, and the kind of content that goes into it.
@@ -36,15 +39,25 @@ impl<Kind: Copy> Target<Kind> {
         })
     }
 
+    /// A target where a file is named.
+    pub(crate) fn of(path: Option<&Path>, kinds: &[(&str, Kind)]) -> Result<Option<Self>> {
+        path.map(|path| Self::new(path, kinds)).transpose()
+    }
+
     /// Writes the whole file, or nothing.
     pub(crate) fn write(&self, bytes: &[u8]) -> Result<()> {
-        formicar::map::format::write_atomically(&self.path, bytes)
-            .with_context(|| format!("{} cannot be written", self.path.display()))
+        files::write(&self.path, bytes)
     }
 
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
+}
+
+/// Prints a document as JSON on a line.
+pub(crate) fn print_json(out: &mut impl Write, document: &impl Serialize) -> io::Result<()> {
+    serde_json::to_writer(&mut *out, document)?;
+    writeln!(out)
 }
 
 /// Checks that a file can be written, by writing an empty one beside it.

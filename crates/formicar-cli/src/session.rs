@@ -1,6 +1,5 @@
 //! A planner with the scene it was prepared for, and its answers to requests.
 
-use crate::clock::{Clock, Watch};
 use crate::failure::Ending;
 use crate::scene::Scene;
 use anyhow::Result;
@@ -11,7 +10,7 @@ use formicar::planner::{
     Answer, AnswerContext, NotFound, Outcome, PlanError, Planner, PlannerConfig, RequestDocument,
     Timing,
 };
-use formicar::progress::{AntFrames, Status};
+use formicar::progress::{AntFrames, Status, StdClock};
 use formicar::scenario::Request;
 use std::sync::Arc;
 use std::time::Instant;
@@ -69,20 +68,22 @@ impl Session {
         defaults: &RequestDocument,
         seed: Seed,
     ) -> Answered {
-        let mut watch = Watch {
-            clock: Clock::begin(),
-            ants: self.ants.as_mut(),
-        };
-        let planned = request.onto(defaults).map_err(PlanError::from);
-        let request = planned.as_ref().ok().cloned();
-        let result = planned.and_then(|request| self.planner.plan(&request, seed, &mut watch));
-        let clock = watch.clock;
+        let request = request.onto(defaults).map_err(PlanError::from);
+        self.plan(request, seed)
+    }
+
+    /// Plans a request, or answers one that cannot be asked.
+    pub(crate) fn plan(&mut self, request: Result<Request, PlanError>, seed: Seed) -> Answered {
+        let mut watch = (StdClock::start(), self.ants.as_mut());
+        let asked = request.as_ref().ok().cloned();
+        let result = request.and_then(|request| self.planner.plan(&request, seed, &mut watch));
+        let clock = watch.0;
         let ground = &self.scene.ground;
         let result = result.map_err(|error| match error {
             PlanError::Scenario(error) => PlanError::Scenario(ground.named(error)),
             error => error,
         });
-        let result = result.map(|outcome| match (outcome, &request) {
+        let result = result.map(|outcome| match (outcome, &asked) {
             (Outcome::NotFound(failure), Some(request)) => {
                 Outcome::NotFound(Box::new(self.with_advice(*failure, request)))
             }
@@ -90,16 +91,14 @@ impl Session {
         });
         let timing = Timing {
             map_setup_s: self.map_setup_s,
-            first_feasible_s: clock.first_feasible_s(),
-            query_s: clock.query_s(),
+            first_feasible_s: clock.first_path().map(|time| time.as_secs_f64()),
+            query_s: clock.now().as_secs_f64(),
             total_s: self.begun.elapsed().as_secs_f64(),
         };
         Answered {
-            answer: self
-                .context()
-                .answer(request.as_ref(), seed, &result, timing),
+            answer: self.context().answer(asked.as_ref(), seed, &result, timing),
             result,
-            n_improvements: clock.n_improvements(),
+            n_improvements: clock.n_paths().saturating_sub(1),
         }
     }
 

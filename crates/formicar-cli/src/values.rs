@@ -5,6 +5,7 @@ use formicar::geometry::{Point2, Pose2};
 use formicar::scenario::{GoalTolerance, ViaPoint};
 use formicar::tracking::StartOffset;
 use serde::de::DeserializeOwned;
+use std::ops::RangeInclusive;
 
 /// A finite number.
 pub(crate) fn number(text: &str) -> Result<f64, String> {
@@ -27,16 +28,28 @@ fn angle(text: &str) -> Result<f64, String> {
     }
 }
 
+/// The numbers of a list, of which there must be some number.
+fn list<'a>(
+    text: &'a str,
+    n: RangeInclusive<usize>,
+    expected: &str,
+) -> Result<Vec<&'a str>, String> {
+    let parts: Vec<&str> = text.split(',').collect();
+    if n.contains(&parts.len()) {
+        return Ok(parts);
+    }
+    Err(format!("{} numbers; expected {expected}", parts.len()))
+}
+
 /// `X,Y,H`: meters, meters, radians (or `90deg`).
 pub(crate) fn pose(text: &str) -> Result<Pose2, String> {
-    let parts: Vec<_> = text.split(',').collect();
-    let [x, y, heading] = parts[..] else {
-        return Err(format!(
-            "{} numbers; expected X,Y,HEADING in meters and radians, for instance 2,3,90deg",
-            parts.len()
-        ));
-    };
-    Ok(Pose2::new(number(x)?, number(y)?, angle(heading)?))
+    let expected = "X,Y,HEADING in meters and radians, for instance 2,3,90deg";
+    let parts = list(text, 3..=3, expected)?;
+    Ok(Pose2::new(
+        number(parts[0])?,
+        number(parts[1])?,
+        angle(parts[2])?,
+    ))
 }
 
 /// `X,Y`, meters.
@@ -49,19 +62,10 @@ pub(crate) fn point(text: &str) -> Result<Point2, String> {
 
 /// `X,Y[,H]`: meters, meters, radians (or `90deg`).
 pub(crate) fn via(text: &str) -> Result<ViaPoint, String> {
-    let parts: Vec<_> = text.split(',').collect();
-    let (x, y, heading) = match parts[..] {
-        [x, y] => (x, y, None),
-        [x, y, heading] => (x, y, Some(heading)),
-        _ => {
-            return Err(format!(
-                "{} numbers; expected X,Y or X,Y,HEADING in meters and radians, for instance 2,3,90deg",
-                parts.len()
-            ));
-        }
-    };
-    let via = ViaPoint::new(Point2::new(number(x)?, number(y)?));
-    Ok(match heading {
+    let expected = "X,Y or X,Y,HEADING in meters and radians, for instance 2,3,90deg";
+    let parts = list(text, 2..=3, expected)?;
+    let via = ViaPoint::new(Point2::new(number(parts[0])?, number(parts[1])?));
+    Ok(match parts.get(2) {
         Some(heading) => via.with_heading(angle(heading)?),
         None => via,
     })
@@ -69,30 +73,18 @@ pub(crate) fn via(text: &str) -> Result<ViaPoint, String> {
 
 /// A rate of turn above 0, radians per second (or `30deg`).
 pub(crate) fn turn_rate(text: &str) -> Result<f64, String> {
-    match angle(text)? {
-        rate if rate > 0.0 => Ok(rate),
-        _ => Err("it must be above 0".to_owned()),
-    }
+    above_0(angle(text)?)
 }
 
 /// `LEFT[,TURN[,AHEAD]]`: meters, radians (or `5deg`), meters.
 pub(crate) fn start_offset(text: &str) -> Result<StartOffset, String> {
-    let parts: Vec<_> = text.split(',').collect();
-    let (left, turn, ahead) = match parts[..] {
-        [left] => (left, "0", "0"),
-        [left, turn] => (left, turn, "0"),
-        [left, turn, ahead] => (left, turn, ahead),
-        _ => {
-            return Err(format!(
-                "{} numbers; expected LEFT[,TURN[,AHEAD]] in meters and radians, for instance 0.2,5deg",
-                parts.len()
-            ));
-        }
-    };
+    let expected = "LEFT[,TURN[,AHEAD]] in meters and radians, for instance 0.2,5deg";
+    let parts = list(text, 1..=3, expected)?;
+    let part = |i: usize| parts.get(i).copied().unwrap_or("0");
     Ok(StartOffset {
-        lateral_m: number(left)?,
-        heading_rad: angle(turn)?,
-        along_m: number(ahead)?,
+        lateral_m: number(part(0))?,
+        heading_rad: angle(part(1))?,
+        along_m: number(part(2))?,
     })
 }
 
@@ -140,7 +132,10 @@ pub(crate) fn polygon(text: &str) -> Result<Vec<Point2>, String> {
 
 /// A finite number above 0.
 pub(crate) fn positive(text: &str) -> Result<f64, String> {
-    let value = number(text)?;
+    above_0(number(text)?)
+}
+
+fn above_0(value: f64) -> Result<f64, String> {
     if value > 0.0 {
         Ok(value)
     } else {

@@ -111,11 +111,7 @@ fn a_killed_bench_goes_on_where_it_stopped() {
     fs::remove_file(room.path("out/results.sqlite")).unwrap();
     let run = bench(&room, &[]);
     assert_eq!(run.code, 0, "{}", run.stderr);
-    assert!(
-        run.stdout.contains("7 runs, 5 kept from before"),
-        "{}",
-        run.stdout
-    );
+    run.assert_says("7 runs, 5 kept from before");
     let again = room.read("out/results.csv");
     assert_eq!(
         Table::of(&again).repeatable(),
@@ -160,7 +156,7 @@ fn kept_answers_pass_the_judge() {
     assert_eq!(fs::read_dir(room.path("out/paths")).unwrap().count(), 2);
     fs::remove_file(room.path(path)).unwrap();
     let run = room.run(&args);
-    assert!(run.stdout.contains("1 run, 1 kept"), "{}", run.stdout);
+    run.assert_says("1 run, 1 kept");
     assert_eq!(Table::of(&room.read("out/results.csv")).rows.len(), 2);
     assert!(room.path(path).exists());
 }

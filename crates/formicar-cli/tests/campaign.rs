@@ -81,7 +81,7 @@ fn a_killed_campaign_goes_on_and_ends_like_an_undisturbed_one() {
     let run = bench(&room, "torn.sqlite");
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     let told = format!("{} runs, {n_kept} kept from before", 48 - n_kept);
-    assert!(run.stdout.contains(&told), "{}", run.stdout);
+    run.assert_says(&told);
     let (whole, torn) = (room.read("whole.csv"), room.read("torn.csv"));
     assert_eq!(
         Table::of(&torn).repeatable(),
@@ -169,8 +169,8 @@ fn scenario_files_are_beside_the_campaign_file() {
     let run = room.run(&[&flags[..], &["--store", "f.sqlite"]].concat());
     assert_eq!(run.code, 0, "{}", run.stderr);
     let run = room.run(&["compare", "s.sqlite", "f.sqlite"]);
-    assert!(run.stdout.contains("2 pairs of runs."), "{}", run.stdout);
-    assert!(run.stdout.contains("left out: 0 and 1"), "{}", run.stdout);
+    run.assert_says("2 pairs of runs.");
+    run.assert_says("left out: 0 and 1");
 }
 
 /// What stands at the beginning of a file, and words of what is said of it.
@@ -306,7 +306,7 @@ fn tables_of_no_runs_are_refused() {
     ]);
     assert!(!room.path("page").exists());
     let run = report("a,b,0,found,true\n");
-    assert!(run.stdout.contains("\n1 run: see"), "{}", run.stdout);
+    run.assert_says("\n1 run: see");
 }
 
 #[test]
@@ -331,7 +331,7 @@ fn what_is_worse_is_told() {
         "{}",
         run.stdout
     );
-    assert!(run.stdout.contains("budget_steps differ"), "{}", run.stdout);
+    run.assert_says("budget_steps differ");
     let run = compare(&[
         "much.sqlite",
         "much.csv",
@@ -405,11 +405,7 @@ fn the_example_of_the_book_runs() {
         "2",
     ]);
     assert_eq!(run.code, 0, "{}", run.stderr);
-    assert!(
-        run.stdout.contains("32 runs: see j.sqlite"),
-        "{}",
-        run.stdout
-    );
+    run.assert_says("32 runs: see j.sqlite");
     let run = room.run(&["report", "j.sqlite", "--out", "junctions"]);
     assert_eq!(run.code, 0, "{}", run.stderr);
     assert!(run.stdout.starts_with("# junctions\n"), "{}", run.stdout);

@@ -52,7 +52,7 @@ fn a_demo_holds_together_and_another_differs_in_times_alone() {
     let [first, second] = folders.each_ref().map(tempfile::TempDir::path);
     let run = demo(first, &[&QUICK[..], &[ANTS]].concat());
     demo(second, &QUICK);
-    assert!(run.stdout.contains("index.html"), "{}", run.stdout);
+    run.assert_says("index.html");
     assert_every_link_of_the_page_resolves(first);
     assert_what_is_found_is_certified_and_the_rest_is_explained(first);
     let again = answers(second);

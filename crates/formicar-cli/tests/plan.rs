@@ -378,12 +378,8 @@ fn continuous_curvature_is_planned_written_and_checked() {
         .concat(),
     );
     assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
-    assert!(
-        run.stdout.contains("curvature continuous, up to "),
-        "{}",
-        run.stdout
-    );
-    assert!(run.stdout.contains("driven     in "), "{}", run.stdout);
+    run.assert_says("curvature continuous, up to ");
+    run.assert_says("driven     in ");
 
     let answer: Value = serde_json::from_str(&room.read("smooth.json")).unwrap();
     assert_eq!(answer["certificate"]["is_curvature_continuous"], true);
@@ -434,9 +430,5 @@ fn a_budget_that_cuts_the_improvement_is_named() {
     let whole = room.run(&["plan", "--map", "warehouse", "--json"]).json();
     assert!(whole.get("cut_by").is_none());
     let words = room.run(&["plan", "--map", "warehouse", "--budget", "2000"]);
-    assert!(
-        words.stdout.contains("stopped by the budget"),
-        "{}",
-        words.stdout
-    );
+    words.assert_says("stopped by the budget");
 }

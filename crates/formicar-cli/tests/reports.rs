@@ -144,15 +144,11 @@ fn the_page_of_one_run_has_its_parameters_too() {
     assert_eq!(run.code, 0, "{}", run.stderr);
     let n_runs = room.read("o/results.csv").lines().count() - 1;
     let told = formicar::numeric::counted(n_runs, "run");
-    assert!(
-        run.stdout.contains(&format!("\n{told}: see o")),
-        "{}",
-        run.stdout
-    );
+    run.assert_says(&format!("\n{told}: see o"));
     let page = room.read("o/index.html");
     assert!(
         page.contains("<h2>Parameters</h2>") && page.contains("<td class=\"words\">chosen</td>")
     );
     let again = room.run(&[&flags[..], &more, &["--out", "o"]].concat());
-    assert!(again.stdout.contains("\n0 runs, "), "{}", again.stdout);
+    again.assert_says("\n0 runs, ");
 }

@@ -15,7 +15,7 @@ fn the_answer_says_which_goal_was_reached() {
     let goals = ["--goal", "10,2,-90deg", "--goal", "4.5,2,0"];
     let run = near(&room, &goals);
     assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
-    assert!(run.stdout.contains("at goal 2 of 2"), "{}", run.stdout);
+    run.assert_says("at goal 2 of 2");
     let picture = ["--json", "--out", "path.json", "--picture", "path.svg"];
     let answer = near(&room, &[&goals[..], &picture].concat()).json();
     assert_eq!(answer["certificate"]["goal_index"], 1);
@@ -186,7 +186,7 @@ fn a_budget_that_ends_after_a_path_was_found_tells_what_did_not_fit() {
     let run = room.run(&[&["plan", "--map", "warehouse"], &continuous[..]].concat());
     assert_eq!(run.code, 3, "{}{}", run.stdout, run.stderr);
     for words in ["budget_exhausted", "found a path, but", "cut short"] {
-        assert!(run.stdout.contains(words), "{}", run.stdout);
+        run.assert_says(words);
     }
 }
 

@@ -105,7 +105,7 @@ fn paths_of_programs_are_judged_and_tabled_beside_ours() {
     let again = room.run(&["bench", "c.toml", "--store", "s.sqlite"]);
     again.assert_refused(&["another campaign", "8 runs, of which 7"]);
     let page = room.run(&["report", "s.sqlite", "--out", "page"]);
-    assert!(page.stdout.contains("| straight | 1/1"), "{}", page.stdout);
+    page.assert_says("| straight | 1/1");
     assert!(room.read("page/index.html").contains("straight.sh"));
 }
 
@@ -217,11 +217,7 @@ fn files_of_others_are_judged_and_tabled_beside_ours() {
         ],
     );
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
-    assert!(
-        run.stdout.contains("s  lattice  seed 0  valid\n"),
-        "{}",
-        run.stdout
-    );
+    run.assert_says("s  lattice  seed 0  valid\n");
     assert!(
         run.stdout
             .contains("seed 1  invalid: the path misses the goal"),
@@ -239,7 +235,7 @@ fn files_of_others_are_judged_and_tabled_beside_ours() {
     ];
     let run = import(&room, &[&["short.csv"], &loose[..]].concat());
     let told = "1 run imported, 2 in all: see r.csv";
-    assert!(run.stdout.contains(told), "{}", run.stdout);
+    run.assert_says(told);
     import_the_others(&room);
     table_beside_ours(&room);
 }
@@ -298,7 +294,7 @@ fn import_what_a_report_writes(room: &Room) {
     let run = room.run(&["import", "--scenario", "s.json", log, "--out", "l.csv"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     let told = "hybrid-astar  seed 0  found: its log holds no path: not judged";
-    assert!(run.stdout.contains(told), "{}", run.stdout);
+    run.assert_says(told);
 }
 
 #[test]

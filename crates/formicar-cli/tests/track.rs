@@ -75,12 +75,8 @@ fn five_lines_for_people() {
         .map(|line| line.split_whitespace().next().unwrap())
         .collect();
     assert_eq!(firsts, ["tracked", "error", "goal", "wheels", "body"]);
-    assert!(
-        run.stdout.contains("by stanley (gain 1 1/s)"),
-        "{}",
-        run.stdout
-    );
-    assert!(run.stdout.contains("of 40.0 deg"), "{}", run.stdout);
+    run.assert_says("by stanley (gain 1 1/s)");
+    run.assert_says("of 40.0 deg");
 }
 
 #[test]
@@ -141,12 +137,8 @@ fn a_collision_is_exit_3_with_its_place() {
     );
     let run = beside("0.2", &[]);
     assert!(run.stdout.starts_with("collides "), "{}", run.stdout);
-    assert!(
-        run.stdout.contains("an obstacle after 1.42 m"),
-        "{}",
-        run.stdout
-    );
-    assert!(run.stdout.contains("touches at 1 place"), "{}", run.stdout);
+    run.assert_says("an obstacle after 1.42 m");
+    run.assert_says("touches at 1 place");
 }
 
 #[test]
@@ -162,19 +154,15 @@ fn a_path_that_is_left_is_exit_3() {
     ];
     let run = track(&room, &slow);
     assert_eq!(run.code, 3, "{}{}", run.stdout, run.stderr);
-    assert!(run.stdout.contains("left_path "), "{}", run.stdout);
-    assert!(run.stdout.contains("the limit is 0.3 m"), "{}", run.stdout);
+    run.assert_says("left_path ");
+    run.assert_says("the limit is 0.3 m");
 }
 
 #[test]
 fn a_path_for_another_vehicle_is_told() {
     let run = track(&planned(), &["--vehicle", "sedan"]);
     assert_eq!(run.code, 3);
-    assert!(
-        run.stdout.contains("not valid to begin with"),
-        "{}",
-        run.stdout
-    );
+    run.assert_says("not valid to begin with");
 }
 
 #[test]

@@ -12,3 +12,4 @@ pub mod rival;
 pub mod run;
 pub mod stress;
 pub mod tuning;
+mod words;

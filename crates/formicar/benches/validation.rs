@@ -21,7 +21,7 @@ fn plans(planner: &mut Planner, requests: &[Request]) -> Vec<(Request, Plan)> {
     requests.iter().filter_map(plan).collect()
 }
 
-/// All paths found, one after the other; divan's rate is metres of path judged per second.
+/// All paths found, one after the other; divan's rate is meters of path judged per second.
 #[divan::bench]
 fn judge_hood_800x500(bencher: Bencher) {
     let Some((mut planner, requests)) = hood_queries() else {

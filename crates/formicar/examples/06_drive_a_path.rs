@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scenario = Scenario::new(&map, vehicle.clone(), request.start, request.goal)?;
     let plan = planner::plan(&scenario, &PlannerConfig::default(), Seed(7), &mut ())?.found()?;
 
-    // Ten centimetres to the left, looking a little to the right; wheels that take their time.
+    // Ten centimeters to the left, looking a little to the right; wheels that take their time.
     let beside = TrackingConfig {
         start_offset: StartOffset {
             lateral_m: 0.1,

@@ -264,7 +264,7 @@ fn where_there_is_room_walls_are_not_shaved() {
 
 #[test]
 fn a_rate_too_small_for_the_room_is_infeasible_and_says_where() {
-    // Two bends of half a metre, and a rate at which the wheels need 400 m from one to the other.
+    // Two bends of half a meter, and a rate at which the wheels need 400 m from one to the other.
     let obstacles = ObstacleMap::new(&field());
     let mut path = CurvePath::new(Pose2::new(20.0, 20.0, 0.0));
     path.push(0.4, 0.5, Direction::Forward);

@@ -109,6 +109,35 @@ fn the_tables_of_the_book_are_those_of_the_code() {
     assert!(missing.is_empty(), "in no table: {missing:?}");
 }
 
+/// The page of rules for each slot of a colony.
+const PAGES: [(&str, &str); 9] = [
+    ("visibility", "heuristic"),
+    ("guidance", "heuristic"),
+    ("corridor", "corridor"),
+    ("initial", "initial-pheromone"),
+    ("transition", "transition"),
+    ("dead_end", "dead-ends"),
+    ("evaporation", "evaporation"),
+    ("deposit", "deposit"),
+    ("limits", "limits"),
+];
+
+#[test]
+fn every_rule_of_a_colony_has_a_heading() {
+    let Some(folder) = book() else { return };
+    let parameters = PlannerConfig::parameters();
+    for (slot, page) in PAGES {
+        let text = fs::read_to_string(folder.join(format!("rules/{page}.md"))).unwrap();
+        let rules = &of(&parameters, &format!("colony.{slot}.rule"))[0].words;
+        assert!(rules.len() > 1, "{slot}");
+        for rule in rules {
+            let is_named = text.contains(&format!("# `{rule}`\n"));
+            let is_none = rule == "none" && text.contains("`none`");
+            assert!(is_named || is_none, "{page}: {rule}");
+        }
+    }
+}
+
 /// Parameters that pages explain in words or beside those of another planner.
 const ELSEWHERE: [&str; 4] = ["planner", "layers.", "grid_search.", "evolution.initial."];
 

@@ -188,7 +188,7 @@ fn a_broken_path_is_bridged() {
     let (mut map, request) = (open_map(160, 90), across(160, 90));
     let mut planner = on(&map, unimproved(1.0));
     let first = plan(&mut planner, &request).path;
-    // A block of half a metre is passed by a curve, a wide wall by a search.
+    // A block of half a meter is passed by a curve, a wide wall by a search.
     for size in [6, 26] {
         let region = about(&map, first.pose_at(7.0), size);
         put(&mut planner, &mut map, region, OCCUPIED);

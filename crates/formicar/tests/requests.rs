@@ -317,7 +317,7 @@ fn hall(is_unwanted: impl Fn(Cell) -> bool) -> (OccupancyGrid, SoftCosts) {
     (map, costs)
 }
 
-/// Metres driven over unwanted ground.
+/// Meters driven over unwanted ground.
 fn unwanted_m(path: &CurvePath, costs: &SoftCosts) -> f64 {
     let spacing_m = 0.01;
     let samples = path.sample(spacing_m).into_iter();

@@ -1,5 +1,6 @@
 //! MACHINE.md: where and how the results were measured.
 
+use formicar_lab::report::Fact;
 use std::fmt::Write;
 use std::fs;
 use std::thread::available_parallelism;
@@ -7,14 +8,14 @@ use std::thread::available_parallelism;
 /// The machine, the program and the command, as Markdown; what is unknown is left out.
 pub(crate) fn description() -> String {
     let mut text = "# Machine\n\n| | |\n|---|---|\n".to_owned();
-    for (name, fact) in facts() {
-        let _ = writeln!(text, "| {name} | {} |", fact.replace('|', "\\|"));
+    for Fact { name, value } in facts() {
+        let _ = writeln!(text, "| {name} | {} |", value.replace('|', "\\|"));
     }
     text
 }
 
 /// What is known of the machine, the program and the command.
-pub(crate) fn facts() -> Vec<(&'static str, String)> {
+pub(crate) fn facts() -> Vec<Fact> {
     let read = |path: &str| fs::read_to_string(path).unwrap_or_default();
     let facts = [
         ("Processor", processor()),
@@ -28,8 +29,8 @@ pub(crate) fn facts() -> Vec<(&'static str, String)> {
     ];
     let known = facts
         .into_iter()
-        .filter_map(|(name, fact)| Some((name, fact?)));
-    known.filter(|(_, fact)| !fact.is_empty()).collect()
+        .filter_map(|(name, fact)| Some(Fact::new(name, fact?)));
+    known.filter(|fact| !fact.value.is_empty()).collect()
 }
 
 /// The machine in a line, which tells machines apart as far as times go.

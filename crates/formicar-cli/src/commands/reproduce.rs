@@ -1,14 +1,12 @@
 //! `reproduce`: the experiments of papers, repeated on our maps.
 
-use super::machine;
+use super::{machine, results};
 use crate::failure::{Ending, Failure};
-use anyhow::{Context, Result};
+use anyhow::Result;
 use clap::{Args, ValueEnum, ValueHint};
-use formicar::map::format::write_atomically;
 use formicar_lab::papers::{Reproduction, Scale, Setup};
-use formicar_lab::report::{Fact, markdown};
+use formicar_lab::report::markdown;
 use indicatif::ProgressBar;
-use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -116,15 +114,7 @@ pub(crate) fn run(args: &ReproduceArgs, out: &mut impl Write) -> Result<Ending, 
 }
 
 fn write_all(folder: &Path, reproduction: &Reproduction) -> Result<()> {
-    fs::create_dir_all(folder).with_context(|| format!("{} cannot be made", folder.display()))?;
-    let facts = machine::facts();
-    let facts = facts.iter().map(|(name, value)| Fact::new(name, value));
-    let mut files = reproduction.files(&facts.collect::<Vec<_>>())?;
+    let mut files = reproduction.files(&machine::facts())?;
     files.push(("MACHINE.md".to_owned(), machine::description()));
-    for (name, text) in files {
-        let path = folder.join(name);
-        write_atomically(&path, text.as_bytes())
-            .with_context(|| format!("{} cannot be written", path.display()))?;
-    }
-    Ok(())
+    results::write_all(folder, &files)
 }

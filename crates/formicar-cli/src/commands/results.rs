@@ -1,11 +1,10 @@
 //! Files of reports about results of `bench`.
 
-use anyhow::{Context, Result};
-use formicar::map::format::write_atomically;
+use crate::files;
+use anyhow::Result;
 use formicar_lab::campaign::ConfigRecord;
 use formicar_lab::report::{Fact, Page, Report, json, markdown, page};
 use serde_json::Value;
-use std::fs;
 use std::path::Path;
 
 /// A report as a page, as JSON and as Markdown: names and contents.
@@ -37,12 +36,10 @@ pub(super) fn config_facts(configs: &[ConfigRecord]) -> Vec<Fact> {
 }
 
 /// Writes files into a folder, made where it does not exist.
-pub(super) fn write_all(folder: &Path, files: &[(String, String)]) -> Result<()> {
-    fs::create_dir_all(folder).with_context(|| format!("{} cannot be made", folder.display()))?;
-    for (name, text) in files {
-        let path = folder.join(name);
-        write_atomically(&path, text.as_bytes())
-            .with_context(|| format!("{} cannot be written", path.display()))?;
+pub(super) fn write_all(folder: &Path, texts: &[(String, String)]) -> Result<()> {
+    files::make_folder(folder)?;
+    for (name, text) in texts {
+        files::write(&folder.join(name), text)?;
     }
     Ok(())
 }

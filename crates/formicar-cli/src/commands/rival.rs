@@ -2,6 +2,7 @@
 
 use crate::failure::{Ending, Failure};
 use crate::files;
+use crate::output::print_json;
 use anyhow::{Context, anyhow};
 use clap::ValueEnum;
 use formicar_lab::rival::{Question, pathfinding_answer};
@@ -23,8 +24,7 @@ pub(crate) fn run(planner: RivalPlanner, out: &mut impl Write) -> Result<Ending,
     let answer = match planner {
         RivalPlanner::Pathfinding => pathfinding_answer(&question)?,
     };
-    serde_json::to_writer(&mut *out, &answer).map_err(std::io::Error::from)?;
-    writeln!(out)?;
+    print_json(out, &answer)?;
     Ok(Ending::Done)
 }
 

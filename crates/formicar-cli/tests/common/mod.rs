@@ -31,6 +31,15 @@ impl Run {
         serde_json::from_str(&self.stdout).unwrap()
     }
 
+    /// Asserts that stdout holds some words.
+    pub(crate) fn assert_says(&self, words: &str) {
+        assert!(
+            self.stdout.contains(words),
+            "no {words:?} in: {}",
+            self.stdout
+        );
+    }
+
     /// Asserts that the input was refused in words, without a panic.
     pub(crate) fn assert_refused(&self, words: &[&str]) {
         assert_eq!(self.code, 2, "{}{}", self.stdout, self.stderr);

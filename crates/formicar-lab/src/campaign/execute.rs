@@ -1,46 +1,9 @@
 //! Carrying out a campaign.
 
 use super::plan::{Campaign, PlannedRun};
-use super::store::Store;
+use super::sink::Sink;
 use crate::run::{Job, Origin, Program, Run, RunStatus, pool};
 use anyhow::{Result, bail};
-
-/// Takes the runs of a campaign as they end.
-pub trait Sink {
-    /// The runs that it has not taken yet, as indices in order.
-    ///
-    /// # Errors
-    /// A file that cannot be read.
-    fn missing(&self) -> Result<Vec<usize>>;
-
-    /// Takes the run of an index; it is safe when this returns.
-    ///
-    /// # Errors
-    /// A file that cannot be written.
-    fn add(&mut self, index: usize, run: &Run) -> Result<()>;
-}
-
-impl Sink for Store {
-    fn missing(&self) -> Result<Vec<usize>> {
-        Self::missing(self)
-    }
-
-    fn add(&mut self, index: usize, run: &Run) -> Result<()> {
-        Self::add(self, index, run)
-    }
-}
-
-/// Runs in memory, by index.
-impl Sink for Vec<Option<Run>> {
-    fn missing(&self) -> Result<Vec<usize>> {
-        Ok((0..self.len()).filter(|i| self[*i].is_none()).collect())
-    }
-
-    fn add(&mut self, index: usize, run: &Run) -> Result<()> {
-        self[index] = Some(run.clone());
-        Ok(())
-    }
-}
 
 /// The program and the machine that measure runs.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! A folder of results: a store, with its rows and settings as files.
 
-use super::execute::Sink;
 use super::plan::Campaign;
 use super::results::read_text;
+use super::sink::Sink;
 use super::store::{Store, check_settings};
 use crate::run::{Run, RunRecord, read_torn_csv, record_line, records_csv};
 use anyhow::{Context, Result};

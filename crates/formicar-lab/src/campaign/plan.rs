@@ -1,12 +1,12 @@
 //! The runs of a campaign, in their order, each with a key that tells it from all others.
 
+use crate::report::config_hash as hash;
 use crate::run::Job;
 use anyhow::{Result, bail};
 use formicar::geometry::Pose2;
 use formicar::planner::PlannerConfig;
 use serde_json::json;
 use std::collections::BTreeMap;
-use xxhash_rust::xxh3::xxh3_128;
 
 /// Runs in a fixed order.
 #[derive(Clone, Debug, Default)]
@@ -135,10 +135,6 @@ impl Campaign {
         }
         Ok(())
     }
-}
-
-fn hash(text: &str) -> String {
-    format!("{:032x}", xxh3_128(text.as_bytes()))
 }
 
 #[cfg(test)]

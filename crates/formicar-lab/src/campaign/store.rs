@@ -5,12 +5,13 @@
 //! a kill the next opening rolls back the run that was being written and nothing else.
 
 use super::lock::Lock;
-use super::plan::{Campaign, PlannedRun};
-use super::stored::{AT_ONCE, SCHEMA, Stored, check_schema, columns, fact, no_store, numbers};
-use crate::run::{Job, Run, RunKey, RunRecord};
+use super::plan::Campaign;
+use super::sink::Sink;
+use super::stored::Stored;
+use super::tables::{self, AT_ONCE, SCHEMA, check_schema, fact, no_store, numbers, rows};
+use crate::run::{Run, RunKey, RunRecord};
 use anyhow::{Context, Result, bail};
-use rusqlite::types::Value;
-use rusqlite::{Connection, params_from_iter};
+use rusqlite::{Connection, Row};
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -83,27 +84,6 @@ impl Store {
         })
     }
 
-    /// The runs of the campaign that are not over, as indices in order.
-    ///
-    /// # Errors
-    /// A store that cannot be read.
-    pub fn missing(&self) -> Result<Vec<usize>> {
-        let mut statement = self.connection.prepare("SELECT place FROM run")?;
-        let places = statement.query_map([], |row| row.get::<_, i64>(0))?;
-        let done: BTreeSet<i64> = places.collect::<rusqlite::Result<_>>()?;
-        let is_missing = |i: &usize| !done.contains(&self.places[*i]);
-        Ok((0..self.places.len()).filter(is_missing).collect())
-    }
-
-    /// Adds a run of the campaign by its index; it is on disk when this returns.
-    ///
-    /// # Errors
-    /// A store that cannot be written, and a run that it holds already.
-    pub fn add(&mut self, index: usize, run: &Run) -> Result<()> {
-        insert(&self.connection, self.places[index], run)
-            .with_context(|| self.path.display().to_string())
-    }
-
     /// Removes a run of the campaign, which is missing then.
     pub(super) fn remove(&mut self, index: usize) -> Result<()> {
         let sql = "DELETE FROM run WHERE place = ?";
@@ -123,7 +103,8 @@ impl Store {
         let mut known = numbers(&self.connection, AT_ONCE)?;
         known.insert(n_at_once);
         let known: Vec<String> = known.iter().map(u32::to_string).collect();
-        self.set_fact(AT_ONCE, &known.join(" "))
+        let noted = tables::set_fact(&self.connection, AT_ONCE, &known.join(" "));
+        noted.with_context(|| self.path.display().to_string())
     }
 
     /// Everything in the store.
@@ -144,16 +125,7 @@ impl Store {
 
     /// True before the first commit: a kill may leave an empty file.
     fn is_empty(&self) -> rusqlite::Result<bool> {
-        let sql = "SELECT count(*) FROM sqlite_master";
-        let n: i64 = self.connection.query_row(sql, [], |row| row.get(0))?;
-        Ok(n == 0)
-    }
-
-    fn set_fact(&self, name: &str, value: &str) -> Result<()> {
-        let sql = "INSERT OR REPLACE INTO fact VALUES (?, ?)";
-        let noted = self.connection.execute(sql, (name, value));
-        noted.with_context(|| self.path.display().to_string())?;
-        Ok(())
+        Ok(tables::count(&self.connection, "sqlite_master")? == 0)
     }
 
     fn settings(&self) -> Result<serde_json::Value> {
@@ -169,7 +141,7 @@ impl Store {
         before: Vec<RunRecord>,
     ) -> Result<()> {
         let transaction = self.connection.transaction()?;
-        transaction.execute_batch(&tables())?;
+        tables::create(&transaction)?;
         let facts = [
             ("schema", SCHEMA),
             ("version", version),
@@ -177,19 +149,17 @@ impl Store {
             ("campaign_hash", &campaign.hash()),
             ("text", &campaign.text),
         ];
-        for fact in facts {
-            transaction.execute("INSERT INTO fact VALUES (?, ?)", fact)?;
+        for (name, value) in facts {
+            tables::set_fact(&transaction, name, value)?;
         }
         for config in &campaign.configs {
-            let values = (&config.name, &config.hash, &config.json);
-            transaction.execute("INSERT INTO config VALUES (?, ?, ?)", values)?;
+            tables::set_config(&transaction, config)?;
         }
         for (place, run) in campaign.runs.iter().enumerate() {
-            plan(&transaction, place as i64, run)?;
+            tables::plan(&transaction, place as i64, run)?;
         }
         if let Some(settings) = settings {
-            let fact = ("settings", settings.to_string());
-            transaction.execute("INSERT INTO fact VALUES (?, ?)", fact)?;
+            tables::set_fact(&transaction, "settings", &settings.to_string())?;
         }
         for record in before {
             let run = Run {
@@ -197,7 +167,7 @@ impl Store {
                 ..Run::default()
             };
             transaction.execute("INSERT INTO planned (run, job) VALUES (NULL, NULL)", [])?;
-            insert(&transaction, transaction.last_insert_rowid(), &run)?;
+            tables::insert(&transaction, transaction.last_insert_rowid(), &run)?;
         }
         Ok(transaction.commit()?)
     }
@@ -212,12 +182,11 @@ impl Store {
         let mut next = next.unwrap_or_default();
         let transaction = self.connection.transaction()?;
         for config in &campaign.configs {
-            let values = (&config.name, &config.hash, &config.json);
-            transaction.execute("INSERT OR REPLACE INTO config VALUES (?, ?, ?)", values)?;
+            tables::set_config(&transaction, config)?;
         }
         for run in &campaign.runs {
             if let Entry::Vacant(unknown) = known.entry(run.job.key()) {
-                plan(&transaction, next, run)?;
+                tables::plan(&transaction, next, run)?;
                 unknown.insert(next);
                 next += 1;
             }
@@ -230,22 +199,15 @@ impl Store {
 
     /// The places of all runs, planned or taken over.
     fn known(&self) -> Result<BTreeMap<RunKey, i64>> {
-        let mut known = BTreeMap::new();
         let sql = "SELECT place, job FROM planned WHERE job IS NOT NULL";
-        let mut statement = self.connection.prepare(sql)?;
-        let mut rows = statement.query([])?;
-        while let Some(row) = rows.next()? {
-            let job: Job = serde_json::from_str(&row.get::<_, String>(1)?)?;
-            known.insert(job.key(), row.get(0)?);
-        }
-        let mut statement = self
-            .connection
-            .prepare("SELECT place, scenario, planner, seed FROM run")?;
-        let mut rows = statement.query([])?;
-        while let Some(row) = rows.next()? {
+        let planned = |row: &Row| Ok((tables::job(row)?.key(), row.get(0)?));
+        let mut known: BTreeMap<RunKey, i64> = rows(&self.connection, sql, planned)?;
+        let sql = "SELECT place, scenario, planner, seed FROM run";
+        let done: Vec<(RunKey, i64)> = rows(&self.connection, sql, |row| {
             let seed: i64 = row.get(3)?;
-            known.insert((row.get(1)?, row.get(2)?, seed as u64), row.get(0)?);
-        }
+            Ok(((row.get(1)?, row.get(2)?, seed as u64), row.get(0)?))
+        })?;
+        known.extend(done);
         Ok(known)
     }
 
@@ -259,12 +221,8 @@ impl Store {
         if fact(&self.connection, "campaign_hash")? == campaign.hash() {
             return Ok(());
         }
-        let mut statement = self
-            .connection
-            .prepare("SELECT run FROM planned WHERE run IS NOT NULL")?;
-        let keys = statement.query_map([], |row| row.get::<_, String>(0))?;
-        let keys: rusqlite::Result<BTreeSet<String>> = keys.collect();
-        let keys = keys?;
+        let sql = "SELECT run FROM planned WHERE run IS NOT NULL";
+        let keys: BTreeSet<String> = rows(&self.connection, sql, |row| Ok(row.get(0)?))?;
         let n_same = campaign.runs.iter().filter(|run| keys.contains(&run.key));
         bail!(
             "it is the store of another campaign, {:?} of {} runs; {:?} has {} runs, of which {} \
@@ -275,6 +233,20 @@ impl Store {
             campaign.runs.len(),
             n_same.count()
         )
+    }
+}
+
+impl Sink for Store {
+    fn missing(&self) -> Result<Vec<usize>> {
+        let sql = "SELECT place FROM run";
+        let done: BTreeSet<i64> = rows(&self.connection, sql, |row| Ok(row.get(0)?))?;
+        let is_missing = |i: &usize| !done.contains(&self.places[*i]);
+        Ok((0..self.places.len()).filter(is_missing).collect())
+    }
+
+    fn add(&mut self, index: usize, run: &Run) -> Result<()> {
+        tables::insert(&self.connection, self.places[index], run)
+            .with_context(|| self.path.display().to_string())
     }
 }
 
@@ -292,27 +264,6 @@ pub(super) fn check_settings(
          the flags of before",
         path.with_file_name("settings.json").display()
     )
-}
-
-fn plan(connection: &Connection, place: i64, run: &PlannedRun) -> Result<()> {
-    let values = (place, &run.key, serde_json::to_string(&run.job)?);
-    connection.execute("INSERT INTO planned VALUES (?, ?, ?)", values)?;
-    Ok(())
-}
-
-fn insert(connection: &Connection, place: i64, run: &Run) -> Result<()> {
-    let mut values = vec![Value::Integer(place)];
-    values.extend(run.record.values().into_iter().map(value));
-    values.extend(run.origin.values().into_iter().map(value));
-    values.push(Value::Text(serde_json::to_string(&run.history)?));
-    values.push(match &run.path {
-        Some(path) => Value::Text(serde_json::to_string(path)?),
-        None => Value::Null,
-    });
-    let marks = vec!["?"; values.len()].join(", ");
-    let sql = format!("INSERT INTO run VALUES ({marks})");
-    connection.execute(&sql, params_from_iter(values))?;
-    Ok(())
 }
 
 /// The table that takes the rows of a store in the end.
@@ -348,34 +299,6 @@ fn check_place(path: &Path) -> Result<()> {
             folder.display()
         ),
         None => Ok(()),
-    }
-}
-
-fn tables() -> String {
-    // Without a type a column keeps numbers as they are: 2.0 stays a real one.
-    let columns: Vec<String> = columns().map(|c| format!("\"{c}\"")).collect();
-    format!(
-        "CREATE TABLE fact (name TEXT PRIMARY KEY, value TEXT);
-         CREATE TABLE config (name TEXT PRIMARY KEY, hash TEXT, parameters TEXT);
-         CREATE TABLE planned (place INTEGER PRIMARY KEY, run TEXT UNIQUE, job TEXT);
-         CREATE TABLE run (place INTEGER PRIMARY KEY REFERENCES planned, {}, history TEXT, path TEXT);
-         CREATE UNIQUE INDEX run_key ON run (run);",
-        columns.join(", ")
-    )
-}
-
-/// A value of a record as `SQLite` keeps it; an empty text is none.
-fn value(value: serde_json::Value) -> Value {
-    match value {
-        serde_json::Value::Null => Value::Null,
-        serde_json::Value::String(text) if text.is_empty() => Value::Null,
-        serde_json::Value::Number(number) => match (number.as_i64(), number.as_f64()) {
-            (Some(whole), _) => Value::Integer(whole),
-            (None, Some(real)) => Value::Real(real),
-            (None, None) => Value::Null,
-        },
-        serde_json::Value::String(text) => Value::Text(text),
-        other => Value::Text(other.to_string()),
     }
 }
 

@@ -5,7 +5,7 @@ use crate::report::{Figure, Overlay, OverlayPath, strips};
 use anyhow::Result;
 use formicar::numeric::Seed;
 use formicar::path::CurvePath;
-use formicar::planner::{Outcome, Planner};
+use formicar::planner::Outcome;
 use formicar::validation::Report;
 
 /// A run with the seed 0.
@@ -25,8 +25,7 @@ pub(crate) enum Line {
 
 impl DrawnRun {
     pub(crate) fn new(ground: &Ground, variant: &Variant) -> Result<Self> {
-        let mut planner =
-            Planner::new(&ground.grid, ground.vehicle.clone(), variant.config.clone())?;
+        let mut planner = ground.planner(&variant.config)?;
         Ok(Self {
             variant: variant.name.clone(),
             outcome: planner.plan(&ground.request, Seed(0), &mut ())?,

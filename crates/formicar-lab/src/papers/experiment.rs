@@ -1,11 +1,9 @@
 //! The parts of an experiment: grounds, variants, and the number of runs.
 
-use crate::papers::trial::{Run, Trial};
-use crate::run::pool;
 use anyhow::{Context, Result};
 use formicar::map::OccupancyGrid;
 use formicar::map::builtin::BuiltinMap;
-use formicar::planner::{PlannerConfig, PlannerName};
+use formicar::planner::{PlanError, Planner, PlannerConfig, PlannerName};
 use formicar::scenario::{GoalHeading, Request, StartHeading};
 use formicar::vehicle::Vehicle;
 use std::any::Any;
@@ -100,6 +98,11 @@ pub struct Ground {
 }
 
 impl Ground {
+    /// A planner for its map and vehicle.
+    pub(crate) fn planner(&self, config: &PlannerConfig) -> Result<Planner, PlanError> {
+        Planner::new(&self.grid, self.vehicle.clone(), config.clone())
+    }
+
     /// A built-in map with its first request and its own vehicle.
     pub(crate) fn builtin(map: &str) -> Result<Self> {
         let builtin = BuiltinMap::by_name(map)?;
@@ -116,25 +119,4 @@ impl Ground {
             },
         })
     }
-}
-
-/// Runs every variant on every ground with every seed, and tells before each variant.
-pub(crate) fn run_all(
-    grounds: &[Ground],
-    variants: impl Fn(&Ground) -> Vec<Variant>,
-    setup: &Setup,
-    report_progress: &mut dyn FnMut(&str),
-) -> Result<Vec<Run>> {
-    let mut runs = Vec::new();
-    for ground in grounds {
-        for variant in variants(ground) {
-            report_progress(&format!("{}: {}", ground.map, variant.name));
-            let n_seeds = setup.scale.n_seeds as usize;
-            let of_variant = pool::map(setup.n_jobs, n_seeds, |seed| {
-                Trial::run(ground, &variant, seed as u64)
-            });
-            runs.extend(of_variant?);
-        }
-    }
-    Ok(runs)
 }

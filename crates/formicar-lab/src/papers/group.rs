@@ -20,6 +20,20 @@ pub(crate) struct Quantity<R> {
     pub(crate) of: fn(&R) -> Option<f64>,
 }
 
+impl<R> Quantity<R> {
+    pub(crate) const fn new(
+        name: &'static str,
+        n_decimals: usize,
+        of: fn(&R) -> Option<f64>,
+    ) -> Self {
+        Self {
+            name,
+            n_decimals,
+            of,
+        }
+    }
+}
+
 /// Rows that belong together.
 #[derive(Clone, Debug)]
 pub(crate) struct Group<'a, R>(Vec<&'a R>);
@@ -119,13 +133,13 @@ impl<R: ResultRow> Group<'_, R> {
 }
 
 /// A column of a table with a row per group: its heading, and the field of a group and its name.
-pub(crate) type Column<'c, R> = (&'static str, &'c dyn Fn(&Group<R>, &str) -> Field);
+pub(crate) type GroupColumn<'c, R> = (&'static str, &'c dyn Fn(&Group<R>, &str) -> Field);
 
 /// A table with a row per group; the first column holds the names of the groups.
 pub(crate) fn table_of<'n, 'a, R: 'a>(
     key: &str,
     name: &'static str,
-    columns: &[Column<R>],
+    columns: &[GroupColumn<R>],
     groups: impl IntoIterator<Item = (&'n str, Group<'a, R>)>,
 ) -> Table {
     let headings = columns.iter().map(|(heading, _)| *heading);
@@ -142,15 +156,4 @@ pub(crate) fn table_of<'n, 'a, R: 'a>(
 pub(crate) fn ratio(value: Option<f64>, to: Option<f64>) -> Option<f64> {
     let ratio = value? / to?;
     ratio.is_finite().then_some(ratio)
-}
-
-/// Every name once, in the order of first use.
-pub(crate) fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
-    let mut known: Vec<&str> = Vec::new();
-    for name in names {
-        if !known.contains(&name) {
-            known.push(name);
-        }
-    }
-    known
 }

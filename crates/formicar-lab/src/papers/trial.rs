@@ -6,7 +6,7 @@ use anyhow::Result;
 use formicar::map::{BitGrid, Cell, DiagonalRule, MoveMasks};
 use formicar::numeric::Seed;
 use formicar::path::GridPath;
-use formicar::planner::{Outcome, Planner, PlannerConfig, Stages};
+use formicar::planner::{Outcome, PlannerConfig, Stages};
 use formicar::progress::{History, IterationRecord, Limits};
 use formicar::search::GoalField;
 use serde::Serialize;
@@ -111,8 +111,7 @@ impl Moment {
 impl Trial {
     /// Runs a variant on a ground.
     pub(crate) fn run(ground: &Ground, variant: &Variant, seed: u64) -> Result<Run> {
-        let config = variant.config.clone();
-        let mut planner = Planner::new(&ground.grid, ground.vehicle.clone(), config)?;
+        let mut planner = ground.planner(&variant.config)?;
         let colony = variant.config.colony();
         let n_tenth = colony.map_or(0, |of| of.colony.n_iterations.div_ceil(10));
         let measured = measure(&mut (), |observer| {

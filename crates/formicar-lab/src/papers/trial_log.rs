@@ -40,7 +40,7 @@ pub(crate) fn ompl_logs(runs: &[Run]) -> Vec<OmplLog> {
         setup: format!("Built-in map {} with its first request", runs[0].trial.map),
         properties: PROPERTIES
             .iter()
-            .map(|(name, kind, _)| Property::new(name, *kind))
+            .map(|&(name, kind, _)| Property { name, kind })
             .collect(),
         planners: runs
             .chunk_by(|a, b| a.trial.variant == b.trial.variant)
@@ -65,7 +65,6 @@ fn planner(runs: &[Run]) -> OmplPlanner {
     };
     OmplPlanner {
         name: runs[0].trial.variant.clone(),
-        settings: Vec::new(),
         runs: runs.iter().map(run).collect(),
     }
 }

@@ -1,9 +1,13 @@
-//! Runs of colonies, grouped by map and variant.
+//! Runs of colonies, carried out and grouped by map and variant.
 
+use crate::analysis::statistics::distinct;
 use crate::papers::claims::{Comparison, Expected};
-use crate::papers::group::{Group, Quantity, ResultRow, distinct};
+use crate::papers::experiment::{Ground, Setup, Variant};
+use crate::papers::group::{Group, Quantity, ResultRow};
 use crate::papers::trial::{Moment, Run, Trial};
 use crate::report::{BoxPlot, Trend, TrendPanel, Trends};
+use crate::run::pool;
+use anyhow::Result;
 use formicar::render::AxisScale;
 
 /// A number of a run.
@@ -18,6 +22,37 @@ impl ResultRow for Trial {
         self.seed
     }
 }
+
+/// Runs every variant on every ground with every seed, and tells before each variant.
+pub(crate) fn run_all(
+    grounds: &[Ground],
+    variants: impl Fn(&Ground) -> Vec<Variant>,
+    setup: &Setup,
+    report_progress: &mut dyn FnMut(&str),
+) -> Result<Vec<Run>> {
+    let mut runs = Vec::new();
+    for ground in grounds {
+        for variant in variants(ground) {
+            report_progress(&format!("{}: {}", ground.map, variant.name));
+            let n_seeds = setup.scale.n_seeds as usize;
+            let of_variant = pool::map(setup.n_jobs, n_seeds, |seed| {
+                Trial::run(ground, &variant, seed as u64)
+            });
+            runs.extend(of_variant?);
+        }
+    }
+    Ok(runs)
+}
+
+/// Quantities that claims of more than one paper are about.
+pub(crate) const LENGTH: Quantity<Trial> =
+    Quantity::new("length, cells", 1, |trial| trial.length_cells);
+pub(crate) const SEARCH: Quantity<Trial> =
+    Quantity::new("search, ms", 1, |trial| Some(trial.search_ms));
+pub(crate) const CONVERGED: Quantity<Trial> =
+    Quantity::new("iterations to within 1 % of its best", 0, |trial| {
+        Some(f64::from(trial.n_to_1_percent?))
+    });
 
 /// All runs of an experiment.
 #[derive(Clone, Copy, Debug)]

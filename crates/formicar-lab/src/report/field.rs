@@ -36,6 +36,11 @@ impl Field {
         Self::Words(words.to_owned())
     }
 
+    /// A whole number.
+    pub fn count(n: usize) -> Self {
+        Self::Number(Some(n as f64), 0)
+    }
+
     /// The field as text.
     pub fn text(&self) -> String {
         let parts = self.parts();

@@ -26,11 +26,11 @@ pub use markdown::markdown;
 pub use numbers::numbers_csv;
 pub use ompl_log::{OmplLog, OmplPlanner, OmplRun, Property, PropertyKind};
 pub use overlay::{Overlay, OverlayPath, strips};
+pub use parameters::Source;
 pub(crate) use parameters::leaves;
-pub use parameters::{Known, Parameter, ParameterSheet, Source};
 pub use plot::{BoxGroup, BoxPlot, PairedPanel, PairedPlot, Trend, TrendPanel, Trends};
 pub use provenance::config_hash;
-pub use table::{Row, Table};
+pub use table::{Column, Row, Table};
 pub use verdict::Verdict;
 
 /// Words longer than this are set in several lines.

@@ -19,30 +19,22 @@ pub enum PropertyKind {
 }
 
 /// A property that every run of a planner has.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Property {
     /// Its name in small letters, as OMPL has `time` and `solution length`.
-    pub name: String,
+    pub name: &'static str,
     /// Its type.
     pub kind: PropertyKind,
 }
 
 impl Property {
-    /// A property.
-    pub fn new(name: &str, kind: PropertyKind) -> Self {
-        Self {
-            name: name.to_owned(),
-            kind,
-        }
-    }
-
     fn written(&self) -> String {
         let kind = match self.kind {
             PropertyKind::Boolean => "BOOLEAN",
             PropertyKind::Integer => "INTEGER",
             PropertyKind::Real => "REAL",
         };
-        format!("{} {kind}", one_line(&self.name))
+        format!("{} {kind}", self.name)
     }
 }
 
@@ -60,8 +52,6 @@ pub struct OmplRun {
 pub struct OmplPlanner {
     /// Its name.
     pub name: String,
-    /// Names and values of its parameters.
-    pub settings: Vec<(String, String)>,
     /// The runs.
     pub runs: Vec<OmplRun>,
 }
@@ -75,35 +65,24 @@ pub struct OmplLog {
     pub version: String,
     /// The machine.
     pub host: String,
-    /// When it began, as `2026-01-31 12:00:00`; a time that was not noted is the epoch.
-    pub date: String,
     /// Map, vehicle and ends in words.
     pub setup: String,
     /// The processor.
     pub cpu: String,
-    /// First seed.
-    pub seed: u64,
     /// The properties of all runs.
     pub properties: Vec<Property>,
     /// The planners.
     pub planners: Vec<OmplPlanner>,
 }
 
-/// Before any time was noted.
-const EPOCH: &str = "1970-01-01 00:00:00";
-
 impl OmplLog {
-    /// The log. Each run may take what time and memory it wants, which the format states as 0.
+    /// The log. Each run may take what time and memory it wants, which the format states as 0; the
+    /// beginning is not noted, and seeds count from 0.
     pub fn to_text(&self) -> String {
         let n_runs = self.planners.iter().map(|planner| planner.runs.len());
-        let date = if self.date.is_empty() {
-            EPOCH
-        } else {
-            &self.date
-        };
         let mut text = format!(
             "formicar version {}\nExperiment {}\n0 experiment properties\nRunning on {}\n\
-             Starting at {date}\n<<<|\n{}\n|>>>\n<<<|\n{}\n|>>>\n{} is the random seed\n\
+             Starting at 1970-01-01 00:00:00\n<<<|\n{}\n|>>>\n<<<|\n{}\n|>>>\n0 is the random seed\n\
              0 seconds per run\n0 MB per run\n{} runs per planner\n\
              {:.6} seconds spent to collect the data\n0 enum types\n{} planners\n",
             one_word(&self.version),
@@ -111,7 +90,6 @@ impl OmplLog {
             one_word(&self.host),
             several_lines(&self.setup),
             several_lines(&self.cpu),
-            self.seed,
             n_runs.max().unwrap_or_default(),
             self.seconds(),
             self.planners.len()
@@ -134,16 +112,7 @@ impl OmplLog {
     }
 
     fn write_planner(&self, text: &mut String, planner: &OmplPlanner) {
-        let settings = &planner.settings;
-        let _ = writeln!(
-            text,
-            "{}\n{} common properties",
-            one_line(&planner.name),
-            settings.len()
-        );
-        for (name, value) in settings {
-            let _ = writeln!(text, "{} = {}", one_line(name), one_line(value));
-        }
+        let _ = writeln!(text, "{}\n0 common properties", one_line(&planner.name));
         let _ = writeln!(text, "{} properties for each run", self.properties.len());
         for property in &self.properties {
             let _ = writeln!(text, "{}", property.written());
@@ -226,14 +195,22 @@ mod tests {
             version: "0.1.0".to_owned(),
             setup: "two\nlines".to_owned(),
             properties: vec![
-                Property::new("solved", PropertyKind::Boolean),
-                Property::new("time", PropertyKind::Real),
-                Property::new("solution length", PropertyKind::Real),
+                Property {
+                    name: "solved",
+                    kind: PropertyKind::Boolean,
+                },
+                Property {
+                    name: "time",
+                    kind: PropertyKind::Real,
+                },
+                Property {
+                    name: "solution length",
+                    kind: PropertyKind::Real,
+                },
             ],
             planners: vec![
                 OmplPlanner {
                     name: "aco, plain".to_owned(),
-                    settings: vec![("n_ants".to_owned(), "50".to_owned())],
                     runs: vec![
                         run(0.5, Some(7.25), vec![[0.1, 9.0], [0.1, 8.0], [0.3, 7.25]]),
                         run(0.25, None, Vec::new()),
@@ -241,7 +218,6 @@ mod tests {
                 },
                 OmplPlanner {
                     name: "astar".to_owned(),
-                    settings: Vec::new(),
                     runs: vec![run(0.0625, Some(7.0), Vec::new())],
                 },
             ],
@@ -253,9 +229,7 @@ mod tests {
     fn read_planner<'a>(lines: &mut impl Iterator<Item = &'a str>) -> (String, Vec<Vec<String>>) {
         let count = |line: &str| -> usize { line.split(' ').next().unwrap().parse().unwrap() };
         let name = lines.next().unwrap().to_owned();
-        for _ in 0..count(lines.next().unwrap()) {
-            assert!(lines.next().unwrap().contains(" = "));
-        }
+        assert_eq!(lines.next(), Some("0 common properties"));
         let n_properties = count(lines.next().unwrap());
         for _ in 0..n_properties {
             let kind = lines.next().unwrap().rsplit(' ').next().unwrap();

@@ -20,6 +20,9 @@ pub struct Table {
 /// A row: the first field is its name.
 pub type Row = Vec<Field>;
 
+/// A column of a table: its heading, and its field of an item.
+pub type Column<'c, T> = (&'c str, &'c dyn Fn(&T) -> Field);
+
 impl Table {
     /// A table without rows.
     pub fn new(key: &str, heading: &[&str]) -> Self {
@@ -29,6 +32,16 @@ impl Table {
             heading: heading.iter().map(|&name| name.to_owned()).collect(),
             rows: Vec::new(),
             is_folded: false,
+        }
+    }
+
+    /// A table with a row for each item.
+    pub fn of<I: IntoIterator>(key: &str, items: I, columns: &[Column<I::Item>]) -> Self {
+        let headings: Vec<&str> = columns.iter().map(|(heading, _)| *heading).collect();
+        let row = |item: I::Item| columns.iter().map(|(_, field)| field(&item)).collect();
+        Self {
+            rows: items.into_iter().map(row).collect(),
+            ..Self::new(key, &headings)
         }
     }
 

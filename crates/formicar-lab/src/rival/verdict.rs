@@ -30,7 +30,7 @@ impl Verdict {
         samples: &Samples,
     ) -> Option<Self> {
         let on = |path: CurvePath| {
-            let report = findings((obstacles, vehicle), request, &path);
+            let report = findings(obstacles, vehicle, request, &path);
             Self { path, report }
         };
         if samples.points.is_empty() {
@@ -75,7 +75,8 @@ const MAX_LAPS: f64 = 100.0;
 
 /// The judge's findings without those that rounding and sampling may cause.
 fn findings(
-    (obstacles, vehicle): (&ObstacleMap, &Vehicle),
+    obstacles: &ObstacleMap,
+    vehicle: &Vehicle,
     request: &Request,
     path: &CurvePath,
 ) -> Report {

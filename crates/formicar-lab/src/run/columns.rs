@@ -100,12 +100,12 @@ macro_rules! table_columns {
                 vec![$(serde_json::json!(self.$field)),*]
             }
 
-            /// Reads the values of a JSON object.
-            #[cfg(test)]
-            pub(crate) fn fill(&mut self, values: &serde_json::Value) {
-                for (column, value) in values.as_object().unwrap() {
-                    self.set(column, &$crate::run::columns::text(value)).unwrap();
+            /// Takes the values of a JSON object whose keys are columns; others are ignored.
+            pub(crate) fn fill(&mut self, values: &serde_json::Value) -> anyhow::Result<()> {
+                for (column, value) in values.as_object().into_iter().flatten() {
+                    self.set(column, &$crate::run::columns::text(value))?;
                 }
+                Ok(())
             }
 
             /// Reads the text of a cell. Columns of others are ignored.
@@ -125,9 +125,7 @@ macro_rules! table_columns {
 
             fn try_from(values: serde_json::Map<String, serde_json::Value>) -> anyhow::Result<Self> {
                 let mut row = Self::default();
-                for (column, value) in &values {
-                    row.set(column, &$crate::run::columns::text(value))?;
-                }
+                row.fill(&serde_json::Value::Object(values))?;
                 Ok(row)
             }
         }

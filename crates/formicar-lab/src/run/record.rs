@@ -244,31 +244,14 @@ impl RunRecord {
 
     /// Takes the metrics of a path.
     pub(crate) fn measure_path(&mut self, exact: &PathMetrics, compatible: &CompatibleMetrics) {
-        self.length_m = finite(exact.length_m);
-        self.max_curvature_per_m = finite(exact.max_curvature_per_m);
-        self.mean_abs_curvature_per_m = finite(exact.mean_abs_curvature_per_m);
-        self.total_turning_rad = finite(exact.total_turning_rad);
-        self.aol_rad_per_m = finite(exact.aol_rad_per_m);
-        self.max_curvature_rate_per_m2 = finite(exact.max_curvature_rate_per_m2);
-        self.n_curvature_jumps = Some(exact.n_curvature_jumps as u64);
-        self.n_cusps = Some(exact.n_cusps as u64);
-        self.reverse_length_m = finite(exact.reverse_length_m);
-        self.min_clearance_m = finite(exact.min_clearance_m);
-        self.mean_clearance_m = finite(exact.mean_clearance_m);
-        self.max_steer_rad = exact.max_steer_rad.and_then(finite);
+        for metrics in [json!(exact), json!(compatible)] {
+            let filled = self.fill(&metrics);
+            filled.expect("metrics are numbers, and named like their columns");
+        }
         let share = &exact.steering_share;
         self.steering_share_to_5_deg = finite(share.to_5_deg);
         self.steering_share_from_5_to_10_deg = finite(share.from_5_to_10_deg);
         self.steering_share_over_10_deg = finite(share.over_10_deg);
-        self.goal_error_m = finite(exact.goal_error_m);
-        self.goal_error_rad = finite(exact.goal_error_rad);
-        self.benchmr_aol = finite(compatible.benchmr_aol);
-        self.benchmr_max_curvature = finite(compatible.benchmr_max_curvature);
-        self.benchmr_normalized_curvature = finite(compatible.benchmr_normalized_curvature);
-        self.benchmr_cusps = Some(compatible.benchmr_cusps as u64);
-        self.ompl_smoothness = finite(compatible.ompl_smoothness);
-        self.matlab_smoothness = compatible.matlab_smoothness.and_then(finite);
-        self.matlab_clearance = compatible.matlab_clearance.and_then(finite);
     }
 
     /// Notes the best path known 0.1 s and 1 s into the query.

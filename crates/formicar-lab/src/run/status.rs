@@ -1,72 +1,43 @@
 //! The ending of a run.
 
 use super::columns::Field;
+use crate::words::named;
 use formicar::progress::Status;
 use serde::{Deserialize, Serialize};
 
-/// The ending of a run: by a planner of ours, by a program of others, or without an answer.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum RunStatus {
-    /// A path was returned.
-    Found,
-    /// The search space holds no path.
-    NoPath,
-    /// The judge refused the path that the search found.
-    Infeasible,
-    /// The budget of steps ran out.
-    BudgetExhausted,
-    /// The deadline passed.
-    TimedOut,
-    /// The caller cancelled.
-    Cancelled,
-    /// The planner cannot be asked this.
-    InvalidRequest,
-    /// A program of others returned no path.
-    NotFound,
-    /// A program of others does not plan for such a request.
-    Refused,
-    /// A program of others is not installed.
-    Unavailable,
-    /// The process ended without an answer.
-    #[default]
-    Crashed,
+named! {
+    /// The ending of a run: by a planner of ours, by a program of others, or without an answer.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    #[non_exhaustive]
+    pub enum RunStatus {
+        /// A path was returned.
+        Found = "found",
+        /// The search space holds no path.
+        NoPath = "no_path",
+        /// The judge refused the path that the search found.
+        Infeasible = "infeasible",
+        /// The budget of steps ran out.
+        BudgetExhausted = "budget_exhausted",
+        /// The deadline passed.
+        TimedOut = "timed_out",
+        /// The caller cancelled.
+        Cancelled = "cancelled",
+        /// The planner cannot be asked this.
+        InvalidRequest = "invalid_request",
+        /// A program of others returned no path.
+        NotFound = "not_found",
+        /// A program of others does not plan for such a request.
+        Refused = "refused",
+        /// A program of others is not installed.
+        Unavailable = "unavailable",
+        /// The process ended without an answer.
+        #[default]
+        Crashed = "crashed",
+    }
 }
 
 impl RunStatus {
-    /// Every status.
-    pub const ALL: [Self; 11] = [
-        Self::Found,
-        Self::NoPath,
-        Self::Infeasible,
-        Self::BudgetExhausted,
-        Self::TimedOut,
-        Self::Cancelled,
-        Self::InvalidRequest,
-        Self::NotFound,
-        Self::Refused,
-        Self::Unavailable,
-        Self::Crashed,
-    ];
-
-    /// The word used in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Found => "found",
-            Self::NoPath => "no_path",
-            Self::Infeasible => "infeasible",
-            Self::BudgetExhausted => "budget_exhausted",
-            Self::TimedOut => "timed_out",
-            Self::Cancelled => "cancelled",
-            Self::InvalidRequest => "invalid_request",
-            Self::NotFound => "not_found",
-            Self::Refused => "refused",
-            Self::Unavailable => "unavailable",
-            Self::Crashed => "crashed",
-        }
-    }
-
     /// True if a planner searched at all: it was there, and took the request.
     pub fn did_run(self) -> bool {
         !matches!(

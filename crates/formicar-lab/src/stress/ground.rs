@@ -1,5 +1,6 @@
 //! Random maps for a vehicle of a size: open, strewn, in corridors, rooms and mazes.
 
+use crate::words::named;
 use formicar::geometry::Pose2;
 use formicar::map::generate::{ScatterParameters, scattered_obstacles};
 use formicar::map::{Cell, FREE, GridFrame, OCCUPIED, OccupancyGrid, UNKNOWN};
@@ -11,33 +12,15 @@ const MAX_SIDE: usize = 200;
 /// Shortest side of a map, cells.
 const MIN_SIDE: usize = 24;
 
-/// The kind of a map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
-    Open,
-    Strewn,
-    Corridors,
-    Rooms,
-    Maze,
-}
-
-impl Kind {
-    pub(super) const ALL: [Self; 5] = [
-        Self::Open,
-        Self::Strewn,
-        Self::Corridors,
-        Self::Rooms,
-        Self::Maze,
-    ];
-
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Open => "open",
-            Self::Strewn => "strewn",
-            Self::Corridors => "corridors",
-            Self::Rooms => "rooms",
-            Self::Maze => "maze",
-        }
+named! {
+    /// The kind of a map.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub(super) enum Kind {
+        Open = "open",
+        Strewn = "strewn",
+        Corridors = "corridors",
+        Rooms = "rooms",
+        Maze = "maze",
     }
 }
 

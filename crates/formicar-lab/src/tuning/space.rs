@@ -48,7 +48,8 @@ impl TuningSpace {
     /// none.
     pub fn new(
         base: &PlannerConfig,
-        (keys, groups): (&[String], &[String]),
+        keys: &[String],
+        groups: &[String],
         ranges: &[OwnRange],
     ) -> Result<(Self, Vec<String>)> {
         let base = serde_json::to_value(base)?;

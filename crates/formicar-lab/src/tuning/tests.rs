@@ -22,7 +22,7 @@ fn range(key: &str, low: f64, high: f64) -> OwnRange {
 
 fn space(planner: PlannerName, names: &[&str], ranges: &[OwnRange]) -> anyhow::Result<TuningSpace> {
     let base = PlannerConfig::of(planner);
-    Ok(TuningSpace::new(&base, (&keys(names), &[]), ranges)?.0)
+    Ok(TuningSpace::new(&base, &keys(names), &[], ranges)?.0)
 }
 
 fn asked(map: &str, request: &str) -> Asked {
@@ -70,7 +70,7 @@ fn tuning(n_jobs: usize) -> Tuning {
 fn every_planner_is_its_own_values() {
     for planner in PlannerName::ALL {
         let base = PlannerConfig::of(planner);
-        let Ok((space, left_out)) = TuningSpace::new(&base, (&[], &[]), &[]) else {
+        let Ok((space, left_out)) = TuningSpace::new(&base, &[], &[], &[]) else {
             continue;
         };
         let own = space.own_values().unwrap();
@@ -182,7 +182,7 @@ fn what_cannot_be_tuned_is_refused_with_what_can() {
 #[test]
 fn groups_are_sections_and_parts_of_them() {
     let base = PlannerConfig::of(PlannerName::Formicar);
-    let group = |name: &str| TuningSpace::new(&base, (&[], &keys(&[name])), &[]);
+    let group = |name: &str| TuningSpace::new(&base, &[], &keys(&[name]), &[]);
     let (trails, left_out) = group("drive.trails").unwrap();
     assert_eq!(trails.space.dimensions().len(), 3);
     assert!(left_out.is_empty());

@@ -7,10 +7,11 @@ use super::runs::{Asked, TunedRun, run_all};
 use super::state::TuningState;
 use crate::analysis::statistics::{holm, quantile, wilcoxon};
 use crate::papers::reproduction::{csv, facts_of, seeds};
-use crate::report::{Block, Fact, Field, Figure, Report, Section, Table};
+use crate::report::{Block, Column, Fact, Field, Figure, Report, Section, Table};
 use anyhow::{Context, Result};
 use formicar::numeric::counted;
 use formicar::planner::PlannerConfig;
+use formicar::tuning::SearchRule;
 use serde_json::Value;
 
 /// The result of a tuning.
@@ -60,7 +61,7 @@ impl Tuning {
         let rows: Vec<&TunedRun> = runs.iter().flatten().flatten().collect();
         let json = |config: &PlannerConfig| serde_json::to_string_pretty(config);
         Ok(Verdict {
-            report: self.report((state, &best), &pairs, picture.clone()),
+            report: self.report(state, &best, &pairs, picture.clone()),
             convergence_svg: picture,
             runs_csv: csv(&rows)?,
             cycles_csv: csv(state.colony.history())?,
@@ -100,50 +101,35 @@ impl Tuning {
         facts
     }
 
-    fn report(
-        &self,
-        (state, best): (&TuningState, &[f64]),
-        pairs: &[Pairs],
-        svg: String,
-    ) -> Report {
-        let mut sections = vec![Section::of_table("What was found", self.parameters(best))];
-        let search = Section {
-            heading: "The search".to_owned(),
-            blocks: vec![
-                Block::Text(self.describe_search(state)),
-                Block::Figure(Figure {
-                    caption: "The objective on the scenarios tuned on: the least so far, and that \
-                              of the middle food source after each cycle."
-                        .to_owned(),
-                    svg,
-                }),
-                Block::Table(gains(state)),
-            ],
-        };
-        sections.push(search);
-        if pairs.is_empty() {
-            sections.push(Section {
-                heading: "Held back".to_owned(),
-                blocks: vec![Block::Text(
-                    "Nothing was held back, so nothing is known of other scenarios.".to_owned(),
-                )],
-            });
+    fn report(&self, state: &TuningState, best: &[f64], pairs: &[Pairs], svg: String) -> Report {
+        let search = vec![
+            Block::Text(self.describe_search(state)),
+            Block::Figure(Figure {
+                caption: "The objective on the scenarios tuned on: the least so far, and that of \
+                          the middle food source after each cycle."
+                    .to_owned(),
+                svg,
+            }),
+            Block::Table(gains(state)),
+        ];
+        let held_back = if pairs.is_empty() {
+            let words = "Nothing was held back, so nothing is known of other scenarios.";
+            Section::new("Held back", vec![Block::Text(words.to_owned())])
         } else {
             let (table, words) = summary(pairs);
-            sections.push(Section {
-                heading: "Held back: default against tuned".to_owned(),
-                blocks: vec![
-                    Block::Text(words),
-                    Block::Table(table),
-                    Block::Table(scenarios(pairs)),
-                ],
-            });
-        }
+            let tables = [table, scenarios(pairs)].map(Block::Table);
+            let blocks = [Block::Text(words)].into_iter().chain(tables).collect();
+            Section::new("Held back: default against tuned", blocks)
+        };
         Report {
             name: "tuning".to_owned(),
             title: format!("Tuning of {}", self.planner_name()),
             intro: self.intro(),
-            sections,
+            sections: vec![
+                Section::of_table("What was found", self.parameters(best)),
+                Section::new("The search", search),
+                held_back,
+            ],
         }
     }
 
@@ -230,15 +216,12 @@ fn written(value: &Value) -> String {
 }
 
 fn gains(state: &TuningState) -> Table {
-    let mut table = Table::new("rules", &["search rule", "gains"])
-        .captioned("How often a candidate of each rule was better than its source.");
-    for (rule, n) in state.colony.gains() {
-        table.row(vec![
-            Field::words(rule.name()),
-            Field::Number(Some(n as f64), 0),
-        ]);
-    }
-    table
+    let columns: [Column<(SearchRule, u64)>; 2] = [
+        ("search rule", &|(rule, _)| Field::words(rule.name())),
+        ("gains", &|(_, n)| Field::Number(Some(*n as f64), 0)),
+    ];
+    Table::of("rules", state.colony.gains(), &columns)
+        .captioned("How often a candidate of each rule was better than its source.")
 }
 
 impl Pairs<'_> {
@@ -363,27 +346,21 @@ fn after_holm(p: f64, digits: usize) -> String {
 }
 
 fn scenarios(pairs: &[Pairs]) -> Table {
-    let mut table = Table::new(
-        "scenarios",
-        &[
-            "scenario",
-            "found: default",
-            "tuned",
-            "cost m: default",
-            "tuned ",
-            "steps: default",
-            "tuned  ",
-        ],
-    )
-    .captioned("Medians over the seeds that found a path.");
-    for pairs in pairs {
-        let n = pairs.runs.len();
-        let mut row = vec![Field::words(&pairs.asked.ground.map)];
-        row.extend([0, 1].map(|which| Field::Count(pairs.n_found(which), n)));
-        row.extend([0, 1].map(|which| Field::Number(pairs.median(which, COST), 2)));
-        let steps: fn(&TunedRun) -> Option<f64> = |run| run.first_steps.map(|n| n as f64);
-        row.extend([0, 1].map(|which| Field::Number(pairs.median(which, steps), 0)));
-        table.row(row);
-    }
-    table
+    let steps: fn(&TunedRun) -> Option<f64> = |run| run.first_steps.map(|n| n as f64);
+    let found = |pairs: &Pairs, which| Field::Count(pairs.n_found(which), pairs.runs.len());
+    let columns: [Column<&Pairs>; 7] = [
+        ("scenario", &|pairs| Field::words(&pairs.asked.ground.map)),
+        ("found: default", &|pairs| found(pairs, 0)),
+        ("tuned", &|pairs| found(pairs, 1)),
+        ("cost m: default", &|pairs| {
+            Field::Number(pairs.median(0, COST), 2)
+        }),
+        ("tuned ", &|pairs| Field::Number(pairs.median(1, COST), 2)),
+        ("steps: default", &|pairs| {
+            Field::Number(pairs.median(0, steps), 0)
+        }),
+        ("tuned  ", &|pairs| Field::Number(pairs.median(1, steps), 0)),
+    ];
+    let table = Table::of("scenarios", pairs, &columns);
+    table.captioned("Medians over the seeds that found a path.")
 }

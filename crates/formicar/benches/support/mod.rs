@@ -54,7 +54,7 @@ pub(crate) struct Hood {
     pub(crate) queries: Vec<[Cell; 2]>,
 }
 
-/// Side of its cells, metres.
+/// Side of its cells, meters.
 pub(crate) const HOOD_RESOLUTION_M: f64 = 0.2;
 
 /// The neighborhood, if the shared data lies beside the workspace.

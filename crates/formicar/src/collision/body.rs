@@ -81,7 +81,7 @@ impl Body {
         self.disc_radius - self.half.x.min(self.half.y)
     }
 
-    /// The largest distance of the body from the rear-axle centre, metres.
+    /// The largest distance of the body from the rear-axle center, meters.
     pub fn reach_m(&self) -> f64 {
         self.corners.iter().fold(0.0, |r, p| p.norm().max(r))
     }

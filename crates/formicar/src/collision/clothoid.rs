@@ -22,7 +22,7 @@ pub struct ClothoidDrive {
     pub start: Pose2,
     /// Curvature at the start, positive left.
     pub curvature_per_m: f64,
-    /// Change of the curvature per metre driven.
+    /// Change of the curvature per meter driven.
     pub curvature_rate_per_m2: f64,
     /// Driven length, negative in reverse.
     pub signed_length_m: f64,
@@ -33,7 +33,7 @@ pub struct ClothoidDrive {
 pub struct NearbyDrive {
     /// The arc.
     pub drive: Drive,
-    /// No body point is farther than this from where the arc has it, metres; 0 for a line or arc.
+    /// No body point is farther than this from where the arc has it, meters; 0 for a line or arc.
     pub deviation_m: f64,
 }
 

@@ -9,7 +9,7 @@ impl ObstacleMap {
     /// center.
     const CENTER_TO_SIDE_CELLS: f64 = 0.5;
 
-    /// An estimate of a standing body's clearance, metres, that the covering discs and the
+    /// An estimate of a standing body's clearance, meters, that the covering discs and the
     /// distance transform, interpolated between cell centers, give; negative where a disc overlaps
     /// something.
     ///
@@ -49,7 +49,7 @@ impl ObstacleMap {
         rooms.fold(f64::INFINITY, f64::min) - body.disc_radius
     }
 
-    /// Estimated distance from a point to the nearest lethal square or the border, metres, or a
+    /// Estimated distance from a point to the nearest lethal square or the border, meters, or a
     /// lower bound of the estimate that is above `far_m`.
     fn room_about_m(&self, p: Point2, far_m: f64) -> f64 {
         let frame = self.frame();

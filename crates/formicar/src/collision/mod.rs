@@ -1,6 +1,6 @@
 //! Exact clearance of a vehicle's body, standing or driving, to occupied cell squares.
 //!
-//! Everything here works in grid coordinates (metres from the map's lower left corner along its
+//! Everything here works in grid coordinates (meters from the map's lower left corner along its
 //! axes); [`ObstacleMap::frame`] carries world poses there and back. Distances are Euclidean,
 //! from the closed body to the closed squares of lethal cells and to the map's border, exact up
 //! to rounding: a straight sweep is one convex polygon, and along an arc the nearest pair always
@@ -25,5 +25,5 @@ pub use obstacle_map::ObstacleMap;
 pub use overlap::Overlap;
 pub use sweep::Drive;
 
-/// A body counts as free where its clearance exceeds this, metres.
+/// A body counts as free where its clearance exceeds this, meters.
 pub const MIN_CLEARANCE_M: f64 = 1e-6;

@@ -7,13 +7,13 @@ use crate::geometry::{Point2, Pose2};
 use crate::map::set_bits;
 
 impl ObstacleMap {
-    /// Distance from a standing body to the nearest lethal square or the border, metres; 0 when
+    /// Distance from a standing body to the nearest lethal square or the border, meters; 0 when
     /// touching, overlapping or off the map.
     pub fn clearance_m(&self, body: &Body, pose: Pose2) -> f64 {
         self.drive_clearance_m(body, &Drive::at(pose), f64::INFINITY)
     }
 
-    /// Least clearance of a body along a drive, metres, or `limit_m` where it is at least that:
+    /// Least clearance of a body along a drive, meters, or `limit_m` where it is at least that:
     /// a low limit makes the answer cheap.
     pub fn drive_clearance_m(&self, body: &Body, drive: &Drive, limit_m: f64) -> f64 {
         drive
@@ -38,7 +38,7 @@ impl ObstacleMap {
         })
     }
 
-    /// A quick lower bound of the clearance along a drive, metres; may be negative.
+    /// A quick lower bound of the clearance along a drive, meters; may be negative.
     pub fn clearance_bound_m(&self, body: &Body, drive: &Drive) -> f64 {
         let bounds = drive
             .pieces(drive.n_pieces(body))

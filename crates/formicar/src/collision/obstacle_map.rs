@@ -134,7 +134,7 @@ impl ObstacleMap {
         self.lethal.contains(x.floor() as i64, y.floor() as i64) && inner(x) && inner(y)
     }
 
-    /// An upper bound of a standing body's clearance, metres, from one look at the distance
+    /// An upper bound of a standing body's clearance, meters, from one look at the distance
     /// transform; where it is negative, the body's inner disc certainly overlaps something.
     pub fn clearance_ceiling_m(&self, body: &Body, pose: Pose2) -> f64 {
         self.ceiling_at_m(body, pose.position(), Point2::unit(pose.heading))

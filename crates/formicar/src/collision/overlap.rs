@@ -11,7 +11,7 @@ use crate::map::Cell;
 pub struct Overlap {
     /// The lethal cell that is entered deepest; none where the body leaves the map.
     pub cell: Option<Cell>,
-    /// Depth, metres: the distance to move out of that square, or back onto the map.
+    /// Depth, meters: the distance to move out of that square, or back onto the map.
     pub depth_m: f64,
     /// Number of lethal cells touched.
     pub n_cells: usize,

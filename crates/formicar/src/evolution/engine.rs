@@ -21,7 +21,7 @@ pub struct EvolutionRun {
     pub history: History,
     /// Why it stopped.
     pub stop: Stop,
-    /// The least length of a polyline of the last generation inside blocked cells, metres.
+    /// The least length of a polyline of the last generation inside blocked cells, meters.
     pub least_obstructed_m: f64,
 }
 

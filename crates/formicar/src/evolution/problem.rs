@@ -11,18 +11,18 @@ pub struct EvolutionProblem<'a> {
     pub(super) shortest: &'a GridSearch,
     pub(super) start: Cell,
     pub(super) goal: Cell,
-    /// Side of a cell, metres.
+    /// Side of a cell, meters.
     pub(super) resolution_m: f64,
     /// The start heading in the frame of the grid; none if it is free.
     pub(super) start_heading_rad: Option<f64>,
-    /// Wheelbase in metres and largest steering in radians.
+    /// Wheelbase in meters and largest steering in radians.
     pub(super) steering: [f64; 2],
 }
 
 impl<'a> EvolutionProblem<'a> {
-    /// From the first to the last cell of a shortest path, on cells of a side in metres.
+    /// From the first to the last cell of a shortest path, on cells of a side in meters.
     ///
-    /// The vehicle is its wheelbase in metres and its largest steering in radians, both positive.
+    /// The vehicle is its wheelbase in meters and its largest steering in radians, both positive.
     ///
     /// # Errors
     /// An end off the map or blocked, or a path without cells.
@@ -66,7 +66,7 @@ impl<'a> EvolutionProblem<'a> {
         self.moves.rule()
     }
 
-    /// `L_ref`: length of the shortest path, at least a cell, metres.
+    /// `L_ref`: length of the shortest path, at least a cell, meters.
     pub(super) fn reference_m(&self) -> f64 {
         self.shortest.length_cells().max(1.0) * self.resolution_m
     }

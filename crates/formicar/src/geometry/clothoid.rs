@@ -30,7 +30,7 @@ const NODES: [[f64; 2]; 4] = [
 
 impl Pose2 {
     /// The pose after driving a signed arc length at a curvature (positive left) that changes by
-    /// `rate_per_m2` per metre of signed length; at rate 0 that is [`Pose2::advance`], bit for bit.
+    /// `rate_per_m2` per meter of signed length; at rate 0 that is [`Pose2::advance`], bit for bit.
     ///
     /// The position is within 3e-13 of the driven length, the heading within rounding.
     ///

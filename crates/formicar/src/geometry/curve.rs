@@ -17,7 +17,7 @@ use std::iter;
 pub struct Arc {
     /// Curvature, positive to the left; 0 on a line.
     pub curvature_per_m: f64,
-    /// Length in metres; negative when driven in reverse.
+    /// Length in meters; negative when driven in reverse.
     pub signed_length_m: f64,
 }
 
@@ -30,7 +30,7 @@ impl Arc {
         }
     }
 
-    /// Driven length in metres, at least 0.
+    /// Driven length in meters, at least 0.
     pub fn length_m(self) -> f64 {
         self.signed_length_m.abs()
     }
@@ -101,7 +101,7 @@ impl Curve {
         &self.arcs[..self.n_arcs]
     }
 
-    /// Driven length in metres, both gears counted positive.
+    /// Driven length in meters, both gears counted positive.
     pub fn length_m(&self) -> f64 {
         self.arcs().iter().map(|arc| arc.length_m()).sum()
     }

@@ -42,7 +42,7 @@ pub fn candidates(from: Pose2, to: Pose2, radius_m: f64) -> Vec<Curve> {
     sink.sorted()
 }
 
-/// The length of the shortest curve in metres; nothing on bad numbers.
+/// The length of the shortest curve in meters; nothing on bad numbers.
 pub fn distance(from: Pose2, to: Pose2, radius_m: f64) -> Option<f64> {
     let circles = TurningCircles::new(from, to, radius_m)?;
     let mut sink = ShortestLength(f64::INFINITY);

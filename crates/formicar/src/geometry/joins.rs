@@ -33,7 +33,7 @@ impl Tangents {
         }
     }
 
-    /// The curve with two signed radii in metres. None where the circles have no such tangent, or
+    /// The curve with two signed radii in meters. None where the circles have no such tangent, or
     /// on bad numbers.
     pub fn curve(&self, [r1, r2]: [f64; 2]) -> Option<Curve> {
         let between = self.local + self.normal * r2 - Point2::new(0.0, r1);
@@ -61,7 +61,7 @@ impl Tangents {
 /// second, rounded by an arc.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corner {
-    /// From the first pose to the corner, and from there to the second, metres.
+    /// From the first pose to the corner, and from there to the second, meters.
     legs_m: [f64; 2],
     turn_rad: f64,
 }
@@ -82,13 +82,13 @@ impl Corner {
         })
     }
 
-    /// The radius of the widest arc that fits, metres: it leaves no line before or none behind.
+    /// The radius of the widest arc that fits, meters: it leaves no line before or none behind.
     pub fn widest_m(&self) -> f64 {
         let [first_m, second_m] = self.legs_m;
         first_m.min(second_m) / (0.5 * self.turn_rad).tan().abs()
     }
 
-    /// The corner with an arc of a radius in metres, which must be positive and at most
+    /// The corner with an arc of a radius in meters, which must be positive and at most
     /// [`Self::widest_m`].
     pub fn rounded(&self, radius_m: f64) -> Curve {
         let tangent_m = radius_m * (0.5 * self.turn_rad).tan().abs();

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// A point, or the vector to it; metres unless a caller says cells.
+/// A point, or the vector to it; meters unless a caller says cells.
 ///
 /// ```
 /// use formicar::Point2;

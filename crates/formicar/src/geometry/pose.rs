@@ -2,9 +2,9 @@
 
 use super::{Point2, wrap_angle};
 
-/// A position in metres and a heading in radians, counter-clockwise from the x axis.
+/// A position in meters and a heading in radians, counter-clockwise from the x axis.
 ///
-/// As a vehicle's pose it is the centre of the rear axle.
+/// As a vehicle's pose it is the center of the rear axle.
 ///
 /// ```
 /// use formicar::Pose2;
@@ -20,16 +20,16 @@ use super::{Point2, wrap_angle};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Pose2 {
-    /// Position along the x axis, metres.
+    /// Position along the x axis, meters.
     pub x: f64,
-    /// Position along the y axis, metres.
+    /// Position along the y axis, meters.
     pub y: f64,
     /// Heading, radians; any real number, wrapped only on output.
     pub heading: f64,
 }
 
 impl Pose2 {
-    /// The pose at `(x, y)` metres with a heading in radians.
+    /// The pose at `(x, y)` meters with a heading in radians.
     pub const fn new(x: f64, y: f64, heading: f64) -> Self {
         Self { x, y, heading }
     }

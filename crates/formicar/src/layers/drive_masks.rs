@@ -24,7 +24,7 @@ const PIECE_RAD: f64 = std::f64::consts::PI / 36.0;
 #[derive(Clone, Debug)]
 pub struct DriveMasks {
     lattice: PrimitiveSet,
-    /// Corners of the body around the rear axle, in metres.
+    /// Corners of the body around the rear axle, in meters.
     corners: Vec<Point2>,
     resolution_m: f64,
     by_heading: Vec<OnceLock<HeadingMasks>>,
@@ -71,7 +71,7 @@ impl DriveMasks {
         ((body + step) / self.resolution_m).ceil() as usize + 3
     }
 
-    /// Whether the body stays clear of obstacles on a motion from a position on the map, metres in
+    /// Whether the body stays clear of obstacles on a motion from a position on the map, meters in
     /// the map's frame, and a heading of the lattice.
     ///
     /// `obstacles` must be padded by [`Self::reach_cells`].

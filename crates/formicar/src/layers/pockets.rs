@@ -70,9 +70,9 @@ impl Pockets {
         let first_col = hull.iter().map(|span| span.first).min().unwrap_or(0);
         let shut = shut_in_box(blocked, Cell::new(first_col, first_row), hull);
         let pockets = Components::new(&shut, Connectivity::Four);
-        let mut labelled: Vec<(u32, Run)> = Vec::new();
+        let mut labeled: Vec<(u32, Run)> = Vec::new();
         for row in 0..shut.n_rows() {
-            labelled.extend(shut.gaps(row).filter_map(|gap| {
+            labeled.extend(shut.gaps(row).filter_map(|gap| {
                 let label = pockets.label(Cell::new(gap.start as u32, row as u32))?;
                 let run = Run {
                     row: first_row + row as u32,
@@ -82,8 +82,8 @@ impl Pockets {
                 Some((label, run))
             }));
         }
-        labelled.sort_unstable();
-        for pocket in labelled.chunk_by(|a, b| a.0 == b.0) {
+        labeled.sort_unstable();
+        for pocket in labeled.chunk_by(|a, b| a.0 == b.0) {
             let first_run = self.runs.len();
             self.runs.extend(pocket.iter().map(|(_, run)| *run));
             let n_cells = pocket.iter().map(|(_, run)| run.n_cells()).sum();
@@ -138,7 +138,7 @@ struct Outlines {
 
 impl Outlines {
     fn new(blocked: &BitGrid, obstacles: &Components) -> Self {
-        let runs = || labelled_runs(blocked, obstacles);
+        let runs = || labeled_runs(blocked, obstacles);
         let n = obstacles.n_components();
         let mut rows = vec![(u32::MAX, 0); n];
         for (label, run) in runs() {
@@ -172,7 +172,7 @@ impl Outlines {
 }
 
 /// Every run of blocked cells with the obstacle that it belongs to.
-fn labelled_runs<'a>(
+fn labeled_runs<'a>(
     blocked: &'a BitGrid,
     obstacles: &'a Components,
 ) -> impl Iterator<Item = (usize, Run)> + 'a {

@@ -10,8 +10,8 @@ const MAX_WEIGHT: f64 = 1000.0;
 /// The largest graded value of a map: the next is occupied.
 const MAX_GRADED: i8 = OCCUPIED - 1;
 
-/// Values from 0 (indifferent) to 1 (unwanted) on a grid, and their weight: a metre driven on a
-/// cell costs 1 + weight x value metres.
+/// Values from 0 (indifferent) to 1 (unwanted) on a grid, and their weight: a meter driven on a
+/// cell costs 1 + weight x value meters.
 ///
 /// They are a preference only: they affect neither the validity of paths nor whether one is found.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,7 +120,7 @@ impl SoftCosts {
         f64::from(self.values[row as usize * self.frame.n_cols() + col as usize])
     }
 
-    /// Additional cost of a metre at a position in grid coordinates: weight x value.
+    /// Additional cost of a meter at a position in grid coordinates: weight x value.
     pub fn price_at(&self, grid: Point2) -> f64 {
         self.weight * self.value_at(grid)
     }

@@ -36,7 +36,7 @@ pub struct DistanceField {
 }
 
 impl DistanceField {
-    /// A truncation that serves vehicles up to a few metres at usual resolutions.
+    /// A truncation that serves vehicles up to a few meters at usual resolutions.
     pub const DEFAULT_TRUNCATION_CELLS: u32 = 64;
     /// The largest truncation: its square still fits 16 bits.
     pub const MAX_TRUNCATION_CELLS: u32 = 255;

@@ -49,9 +49,9 @@ pub enum MapError {
         "origin ({}, {}, {yaw}); x and y must be within {MAX_ORIGIN_M:e} m of 0 and the yaw a finite number", short(*x), short(*y)
     )]
     BadOrigin {
-        /// Metres.
+        /// Meters.
         x: f64,
-        /// Metres.
+        /// Meters.
         y: f64,
         /// Radians.
         yaw: f64,

@@ -1,4 +1,4 @@
-//! The position of a grid in the world: cells to metres and back.
+//! The position of a grid in the world: cells to meters and back.
 
 use super::cell::Cell;
 use super::error::{MAX_CELLS, MAX_ORIGIN_M, MAX_RESOLUTION_M, MIN_RESOLUTION_M, MapError};
@@ -6,7 +6,7 @@ use crate::geometry::{Point2, Pose2};
 
 /// Size, resolution and origin of a grid.
 ///
-/// *Grid coordinates* are metres from the lower left corner along the grid's own axes; the origin
+/// *Grid coordinates* are meters from the lower left corner along the grid's own axes; the origin
 /// (with its yaw) carries them to the world.
 ///
 /// ```
@@ -27,7 +27,7 @@ pub struct GridFrame {
 }
 
 impl GridFrame {
-    /// A frame of `n_cols` x `n_rows` cells of `resolution_m` metres.
+    /// A frame of `n_cols` x `n_rows` cells of `resolution_m` meters.
     ///
     /// # Errors
     /// An empty grid, more than [`MAX_CELLS`] cells, a resolution outside
@@ -78,7 +78,7 @@ impl GridFrame {
         self.n_cols * self.n_rows
     }
 
-    /// Side of a cell in metres.
+    /// Side of a cell in meters.
     pub fn resolution_m(&self) -> f64 {
         self.resolution_m
     }
@@ -88,7 +88,7 @@ impl GridFrame {
         self.origin
     }
 
-    /// Width and height in metres.
+    /// Width and height in meters.
     pub fn extent_m(&self) -> Point2 {
         Point2::new(self.n_cols as f64, self.n_rows as f64) * self.resolution_m
     }
@@ -115,7 +115,7 @@ impl GridFrame {
         inside.then(|| Cell::new(col as u32, row as u32))
     }
 
-    /// The world point at the centre of a cell.
+    /// The world point at the center of a cell.
     pub fn center(&self, cell: Cell) -> Point2 {
         let half = |i: u32| (f64::from(i) + 0.5) * self.resolution_m;
         self.origin

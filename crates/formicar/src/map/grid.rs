@@ -146,7 +146,7 @@ impl OccupancyGrid {
         BitGrid::of_values(self.frame.n_cols(), &self.values, lethal)
     }
 
-    /// Sets every cell that a polygon's inside or boundary touches; corners in world metres, in
+    /// Sets every cell that a polygon's inside or boundary touches; corners in world meters, in
     /// order, convex or not. A corner that is not finite makes the polygon cover the whole map.
     pub fn fill_polygon(&mut self, corners: &[Point2], value: i8) {
         super::raster::touched_cells(&self.frame, corners, |index| self.values[index] = value);

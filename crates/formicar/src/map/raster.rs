@@ -9,7 +9,7 @@ const FAR_CELLS: f64 = (1 << 20) as f64;
 /// Visits the index of every cell whose closed square a polygon (inside and boundary) touches,
 /// each once.
 ///
-/// Corners are world metres in order, convex or not (even-odd rule); parts off the map are left
+/// Corners are world meters in order, convex or not (even-odd rule); parts off the map are left
 /// out. Fewer than three corners are a point or a line. A corner that is not finite makes the
 /// polygon cover the whole map, so that no obstacle is lost. Cost is proportional to the cells
 /// touched plus rows times edges.
@@ -136,7 +136,7 @@ mod tests {
         cells
     }
 
-    /// By whole numbers: an edge meets the closed square, or the square's centre is inside.
+    /// By whole numbers: an edge meets the closed square, or the square's center is inside.
     fn brute_force(corners: &[(i64, i64)]) -> Vec<bool> {
         let corners: Vec<(i128, i128)> = corners
             .iter()

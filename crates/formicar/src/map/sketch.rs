@@ -1,9 +1,9 @@
-//! Maps drawn from axis-aligned rectangles in metres.
+//! Maps drawn from axis-aligned rectangles in meters.
 
 use super::{FREE, GridFrame, MapError, OCCUPIED, OccupancyGrid};
 use crate::geometry::Pose2;
 
-/// A rectangle in grid coordinates, metres.
+/// A rectangle in grid coordinates, meters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rect {
     pub(super) x0: f64,
@@ -60,7 +60,7 @@ impl Sketch {
         Self { frame, values }
     }
 
-    /// Free ground of a built-in size, metres.
+    /// Free ground of a built-in size, meters.
     pub(super) fn room([width, height]: [f64; 2], resolution_m: f64) -> Self {
         let n = |length: f64| (length / resolution_m).round() as usize;
         let frame = GridFrame::new(n(width), n(height), resolution_m, Pose2::default())
@@ -68,7 +68,7 @@ impl Sketch {
         Self::new(frame, FREE)
     }
 
-    /// Solid ground of a built-in size, metres.
+    /// Solid ground of a built-in size, meters.
     pub(super) fn solid(size: [f64; 2], resolution_m: f64) -> Self {
         let mut sketch = Self::room(size, resolution_m);
         sketch.values.fill(OCCUPIED);

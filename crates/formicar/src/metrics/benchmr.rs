@@ -12,7 +12,7 @@ pub(super) struct BenchMr {
     pub(super) n_cusps: usize,
 }
 
-/// Shortest leg of a triple of points, metres.
+/// Shortest leg of a triple of points, meters.
 const MIN_LEG_M: f64 = 0.3;
 
 /// Turns above this are cusps, degrees.

@@ -31,7 +31,7 @@ pub struct CompatibleMetrics {
     /// The same with Dubins distances (Reeds-Shepp where the path reverses) at the vehicle's
     /// smallest radius, as MATLAB's `pathmetrics`; nothing for a point.
     pub matlab_smoothness: Option<f64>,
-    /// Smallest distance between the centers of the poses' cells and of occupied cells, metres,
+    /// Smallest distance between the centers of the poses' cells and of occupied cells, meters,
     /// as MATLAB's `pathmetrics`; nothing without obstacles.
     pub matlab_clearance: Option<f64>,
 }

@@ -6,7 +6,7 @@ use crate::geometry::{Point2, Pose2};
 use crate::map::{Cell, CellRegion, Components, Connectivity};
 use crate::path::CurvePath;
 
-/// Heading differences, metres per radian, when looking for where the new path leaves the old one.
+/// Heading differences, meters per radian, when looking for where the new path leaves the old one.
 const METRES_PER_RAD: f64 = 1.0;
 /// Paths are drawn in steps of at most so many cells.
 const SPACING_CELLS: f64 = 0.5;

@@ -11,9 +11,9 @@ use crate::vehicle::Vehicle;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClearanceSummary {
-    /// The least, metres, as the judge found it.
+    /// The least, meters, as the judge found it.
     pub min_m: f64,
-    /// The mean over arc length, metres.
+    /// The mean over arc length, meters.
     pub mean_m: f64,
 }
 
@@ -78,7 +78,7 @@ impl ClearanceSummary {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct PathMetrics {
-    /// Driven length, metres.
+    /// Driven length, meters.
     pub length_m: f64,
     /// Largest absolute curvature of a segment; the corners of a polyline do not count.
     pub max_curvature_per_m: f64,
@@ -86,7 +86,7 @@ pub struct PathMetrics {
     pub mean_abs_curvature_per_m: f64,
     /// Integral of absolute curvature over arc length, plus the angles of corners.
     pub total_turning_rad: f64,
-    /// Total turning per metre.
+    /// Total turning per meter.
     pub aol_rad_per_m: f64,
     /// Fastest change of curvature along a segment; 0 on lines and arcs, whose jumps are counted
     /// apart.
@@ -95,11 +95,11 @@ pub struct PathMetrics {
     pub n_curvature_jumps: usize,
     /// Switches of direction.
     pub n_cusps: usize,
-    /// Length driven in reverse, metres.
+    /// Length driven in reverse, meters.
     pub reverse_length_m: f64,
-    /// Least clearance, metres.
+    /// Least clearance, meters.
     pub min_clearance_m: f64,
-    /// Mean clearance, metres.
+    /// Mean clearance, meters.
     pub mean_clearance_m: f64,
     /// Largest absolute angle of the virtual middle front wheel, where the wheelbase is known.
     pub max_steer_rad: Option<f64>,
@@ -109,7 +109,7 @@ pub struct PathMetrics {
     pub travel_time_s: Option<f64>,
     /// Turning from step to step, at [`SteeringShare::DEFAULT_SPACING_M`].
     pub steering_share: SteeringShare,
-    /// Distance of the last pose from the goal, metres.
+    /// Distance of the last pose from the goal, meters.
     pub goal_error_m: f64,
     /// Absolute heading difference between the last pose and the goal, radians.
     pub goal_error_rad: f64,

@@ -26,7 +26,7 @@ pub(super) fn resampled(path: &CurvePath, n_points: usize) -> Vec<Pose2> {
     poses
 }
 
-/// Points closer than this are one, metres.
+/// Points closer than this are one, meters.
 pub(super) const SAME_POINT_M: f64 = 1e-9;
 
 /// The same poses, where a point that differs from the last by rounding alone is made equal to

@@ -25,7 +25,7 @@ impl SteeringShare {
     /// No more steps than this, however fine the spacing.
     const MAX_STEPS: f64 = 1e6;
 
-    /// The shares over equal steps of at most `spacing_m` metres along the path; all 0 where the
+    /// The shares over equal steps of at most `spacing_m` meters along the path; all 0 where the
     /// path or the spacing has no length.
     pub fn new(path: &CurvePath, spacing_m: f64) -> Self {
         let n_steps = (path.length_m() / spacing_m).ceil();

@@ -7,14 +7,14 @@ use crate::geometry::{Pose2, angle_difference};
 const N_HALVINGS: u32 = 40;
 
 impl CurvePath {
-    /// How far along the path the pose is that is nearest to another, metres; heading differences
-    /// count as so many metres per radian. Of several, the first.
+    /// How far along the path the pose is that is nearest to another, meters; heading differences
+    /// count as so many meters per radian. Of several, the first.
     ///
     /// The path is sampled at least every `spacing_m`, and the best place made precise.
-    pub fn nearest_m(&self, to: Pose2, metres_per_rad: f64, spacing_m: f64) -> f64 {
+    pub fn nearest_m(&self, to: Pose2, meters_per_rad: f64, spacing_m: f64) -> f64 {
         let apart = |pose: Pose2| {
             let turn_rad = angle_difference(pose.heading, to.heading).abs();
-            pose.position().distance(to.position()) + metres_per_rad * turn_rad
+            pose.position().distance(to.position()) + meters_per_rad * turn_rad
         };
         let samples = self.sample(spacing_m);
         let nearest = samples

@@ -55,7 +55,7 @@ pub struct CurveSegment {
     pub start: Pose2,
     /// tan(steer) / wheelbase at its start, positive where the wheels point left; 0 on a line.
     pub curvature_per_m: f64,
-    /// Change of the curvature per driven metre; 0 on lines and arcs.
+    /// Change of the curvature per driven meter; 0 on lines and arcs.
     pub curvature_rate_per_m2: f64,
     /// Driven length, at least 0.
     pub length_m: f64,
@@ -116,7 +116,7 @@ impl CurveSegment {
 pub struct PathPose {
     /// The pose of the vehicle.
     pub pose: Pose2,
-    /// Arc length driven so far, metres.
+    /// Arc length driven so far, meters.
     pub s_m: f64,
     /// The gear in which the pose is reached.
     pub direction: Direction,
@@ -253,7 +253,7 @@ impl CurvePath {
         &self.segments
     }
 
-    /// Driven length in metres.
+    /// Driven length in meters.
     pub fn length_m(&self) -> f64 {
         // The sum of nothing is -0; nobody wants to read that.
         0.0 + self.segments.iter().map(|s| s.length_m).sum::<f64>()

@@ -10,7 +10,7 @@ pub use speed::{SpeedLimits, SpeedProfile, TimedPose};
 use crate::geometry::Point2;
 use crate::map::Cell;
 
-/// A chain of neighbouring cells, from start to goal.
+/// A chain of neighboring cells, from start to goal.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct GridPath {
     /// The cells in order.
@@ -28,12 +28,12 @@ pub struct GridPath {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WaypointPath {
-    /// The corners in order, metres.
+    /// The corners in order, meters.
     pub points: Vec<Point2>,
 }
 
 impl WaypointPath {
-    /// Length in metres.
+    /// Length in meters.
     pub fn length_m(&self) -> f64 {
         self.points.windows(2).map(|w| w[0].distance(w[1])).sum()
     }

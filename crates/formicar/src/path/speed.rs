@@ -45,7 +45,7 @@ impl SpeedLimits {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct TimedPose {
-    /// Speed when the pose is reached, metres per second, at least 0.
+    /// Speed when the pose is reached, meters per second, at least 0.
     pub speed_mps: f64,
     /// Time when it is reached, seconds from the beginning.
     pub time_s: f64,

@@ -3,7 +3,8 @@
 use super::{Event, Observer};
 use std::time::{Duration, Instant};
 
-/// The system's clock, started with a query; it also notes when the first path was certified.
+/// The system's clock, started with a query; it also notes when the first path was certified,
+/// and counts certified paths.
 ///
 /// ```
 /// use formicar::progress::StdClock;
@@ -21,6 +22,7 @@ use std::time::{Duration, Instant};
 pub struct StdClock {
     begun: Instant,
     first_path: Option<Duration>,
+    n_paths: u32,
 }
 
 impl StdClock {
@@ -30,6 +32,7 @@ impl StdClock {
         Self {
             begun: Instant::now(),
             first_path: None,
+            n_paths: 0,
         }
     }
 
@@ -42,12 +45,18 @@ impl StdClock {
     pub fn first_path(&self) -> Option<Duration> {
         self.first_path
     }
+
+    /// The number of certified paths so far, each better than the one before.
+    pub fn n_paths(&self) -> u32 {
+        self.n_paths
+    }
 }
 
 impl Observer for StdClock {
     fn on_event(&mut self, event: &Event) {
-        if matches!(event, Event::Improved { .. }) && self.first_path.is_none() {
-            self.first_path = Some(self.now());
+        if matches!(event, Event::Improved { .. }) {
+            self.first_path = self.first_path.or(Some(self.now()));
+            self.n_paths += 1;
         }
     }
 

@@ -119,7 +119,7 @@ pub enum Event<'a> {
     Improved {
         /// The path, world coordinates.
         path: &'a CurvePath,
-        /// Its length in metres.
+        /// Its length in meters.
         length_m: f64,
         /// Search steps so far.
         n_steps: u64,

@@ -65,14 +65,15 @@ impl Scene {
             radius_px: (share_of_cell * cell_px).min(most_px),
         };
         let redundant = all.iter().filter(|cell| !kept.contains(cell));
-        self.dots(redundant, ("redundant node", dot(palette::INK, 0.2, 2.8)))
-            .dots(kept.iter(), ("node", dot(palette::WAYPOINTS, 0.42, 5.0)))
+        self.dots(redundant, "redundant node", dot(palette::INK, 0.2, 2.8))
+            .dots(kept.iter(), "node", dot(palette::WAYPOINTS, 0.42, 5.0))
     }
 
     fn dots<'a>(
         &mut self,
         cells: impl Iterator<Item = &'a Cell>,
-        (label, dot): (&str, Dot),
+        label: &str,
+        dot: Dot,
     ) -> &mut Self {
         for &cell in cells {
             let at = self.view.to_px(self.frame.center(cell));

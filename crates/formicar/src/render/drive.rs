@@ -13,7 +13,7 @@ use crate::vehicle::{AckermannAxles, Vehicle};
 /// Points of the planned path, at least so far apart and at most so many.
 const PLANNED_SPACING_M: f64 = 0.05;
 const MAX_PLANNED_POINTS: f64 = 2000.0;
-/// Errors below these fill no chart: half a centimetre, half a degree.
+/// Errors below these fill no chart: half a centimeter, half a degree.
 const LEAST_RANGE_M: f64 = 0.005;
 const LEAST_RANGE_DEG: f64 = 0.5;
 
@@ -28,7 +28,7 @@ pub struct DrivePicture<'a> {
     pub planned: &'a CurvePath,
     /// The result.
     pub drive: &'a Tracking,
-    /// The obstacle that the vehicle came nearest to or touched first, and its clearance in metres.
+    /// The obstacle that the vehicle came nearest to or touched first, and its clearance in meters.
     pub tightest: Option<(Point2, f64)>,
     /// Heading.
     pub title: &'a str,
@@ -74,15 +74,15 @@ pub fn drive_charts(trace: &[TracePoint], vehicle: &Vehicle) -> Vec<Chart> {
         Chart {
             limits: wheel_limits(vehicle),
             height_px: 150.0,
-            ..strip(trace, ("front wheels", "degrees"), wheels(trace))
+            ..strip(trace, "front wheels", "degrees", wheels(trace))
         },
         Chart {
             y: around_zero("m", &cross_track, LEAST_RANGE_M),
-            ..strip(trace, ("cross-track error", "m"), vec![cross_track])
+            ..strip(trace, "cross-track error", "m", vec![cross_track])
         },
         Chart {
             y: around_zero("degrees", &heading, LEAST_RANGE_DEG),
-            ..strip(trace, ("heading error", "degrees"), vec![heading])
+            ..strip(trace, "heading error", "degrees", vec![heading])
         },
     ];
     stacked(charts, "time, s")
@@ -104,7 +104,7 @@ fn draw_planned(scene: &mut Scene, planned: &CurvePath, label: &str) {
     scene.polyline(&points, &style);
 }
 
-fn strip(trace: &[TracePoint], (title, unit): (&str, &str), series: Vec<Series>) -> Chart {
+fn strip(trace: &[TracePoint], title: &str, unit: &str, series: Vec<Series>) -> Chart {
     let duration_s = trace.last().map_or(0.0, |p| p.t_s);
     Chart {
         title: title.to_owned(),

@@ -1,7 +1,8 @@
 //! The part of a map that a picture shows: all of it, or the surroundings of a short path.
 
+use super::Layout;
+use super::plan_parts::PlanPicture;
 use super::view::frame_bounds;
-use super::{Layout, PlanPicture};
 use crate::geometry::Point2;
 
 /// Room around the way, as a share of its longer side.

@@ -65,7 +65,7 @@ impl Labels {
     }
 
     /// A text beside a place, at least `clear_px` off.
-    pub(super) fn name(&mut self, at: Point2, clear_px: f64, (text, color): (&str, Color)) {
+    pub(super) fn name(&mut self, at: Point2, clear_px: f64, text: &str, color: Color) {
         let text = text.to_owned();
         self.names.push(Name {
             at,

@@ -64,7 +64,7 @@ impl Legend {
     }
 
     /// Draws it with its upper left corner at a point.
-    pub(super) fn draw(&self, svg: &mut Svg, at: Point2, (width_px, indent_px): (f64, f64)) {
+    pub(super) fn draw(&self, svg: &mut Svg, at: Point2, width_px: f64, indent_px: f64) {
         let places = self.places(width_px, indent_px);
         for ((label, swatch), place) in self.entries.iter().zip(places) {
             let middle = at + place + Point2::new(0.0, 0.5 * LINE_PX);
@@ -148,7 +148,7 @@ fn short(value: f64) -> String {
 }
 
 /// Draws a bar of a round length, about a ninth of the panel, and returns the width it took.
-pub(super) fn scale_bar(svg: &mut Svg, at: Point2, (panel_px, px_per_m): (f64, f64)) -> f64 {
+pub(super) fn scale_bar(svg: &mut Svg, at: Point2, panel_px: f64, px_per_m: f64) -> f64 {
     let length_m = ticks::round_step(panel_px / px_per_m, 9.0);
     let length_px = length_m * px_per_m;
     if !(length_px.is_finite() && length_px < panel_px) {

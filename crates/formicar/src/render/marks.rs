@@ -110,7 +110,7 @@ impl Scene {
             }
         }
         if self.view.shows(at) {
-            self.labels.name(at, 12.0, (name, color));
+            self.labels.name(at, 12.0, name, color);
         }
         self
     }
@@ -121,7 +121,7 @@ impl Scene {
         if self.view.shows(at) {
             let dot = Element::circle(at, 4.0).fill(palette::PAGE);
             self.body.add(&dot.pen(palette::INK, 1.8));
-            self.labels.name(at, 9.0, (name, palette::INK));
+            self.labels.name(at, 9.0, name, palette::INK);
         }
         self
     }
@@ -142,15 +142,15 @@ impl Scene {
 
     /// Rings a place and writes its clearance.
     pub fn tightest(&mut self, place: Point2, clearance_m: f64) -> &mut Self {
-        self.ring(place, (&clearance_label(clearance_m), "tightest place"))
+        self.ring(place, &clearance_label(clearance_m), "tightest place")
     }
 
     /// Rings a gap and writes its width.
     pub fn gap(&mut self, place: Point2, gap_m: f64) -> &mut Self {
-        self.ring(place, (&format!("{gap_m:.2} m wide"), "narrowest place"))
+        self.ring(place, &format!("{gap_m:.2} m wide"), "narrowest place")
     }
 
-    fn ring(&mut self, place: Point2, (label, name): (&str, &str)) -> &mut Self {
+    fn ring(&mut self, place: Point2, label: &str, name: &str) -> &mut Self {
         let at = self.view.to_px(place);
         if !self.view.shows(at) {
             return self;
@@ -165,7 +165,7 @@ impl Scene {
         self.body.add(&casing.text("stroke-opacity", "0.85"));
         self.body
             .add(&Element::circle(at, RING_PX).pen(palette::LIMIT, 2.4));
-        self.labels.name(at, RING_PX + 5.0, (label, palette::LIMIT));
+        self.labels.name(at, RING_PX + 5.0, label, palette::LIMIT);
         self.legend.add(name, Swatch::Ring);
         self
     }

@@ -25,6 +25,7 @@ pub mod palette;
 mod panel;
 mod picture;
 mod plan;
+mod plan_parts;
 #[cfg(feature = "png-pictures")]
 mod png;
 #[cfg(feature = "gif-pictures")]
@@ -48,7 +49,8 @@ pub use gif::to_gif;
 pub use markup::{Element, Markup, escape, html_page};
 pub use palette::Color;
 pub use picture::Picture;
-pub use plan::{PlanPicture, plan_picture, plan_picture_in};
+pub use plan::{plan_picture, plan_picture_in};
+pub use plan_parts::PlanPicture;
 #[cfg(feature = "png-pictures")]
 pub use png::RenderError;
 pub use scene::Scene;

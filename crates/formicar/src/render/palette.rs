@@ -40,7 +40,7 @@ impl Color {
         }
     }
 
-    /// Its lightness in greyscale, 0 (black) to 1 (white): luma of Rec. 709.
+    /// Its lightness in grayscale, 0 (black) to 1 (white): luma of Rec. 709.
     pub fn lightness(self) -> f64 {
         let [r, g, b] = [self.red, self.green, self.blue].map(f64::from);
         (0.2126 * r + 0.7152 * g + 0.0722 * b) / 255.0
@@ -96,7 +96,7 @@ pub const WAYPOINTS: Color = Color::rgb(0x8c, 0x5a, 0x14);
 /// map has.
 ///
 /// Lightness, hue and chroma run linearly in `OKLab` (Ottosson 2020, "A perceptual color space for
-/// image processing"), so that equal steps look equal and greyscale keeps the order.
+/// image processing"), so that equal steps look equal and grayscale keeps the order.
 pub fn heat(t: f64) -> Color {
     let t = if t.is_nan() { 0.0 } else { t.clamp(0.0, 1.0) };
     let (lightness, chroma) = (0.97 - 0.47 * t, 0.05 + 0.12 * t);
@@ -131,7 +131,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ground_and_gears_differ_in_greyscale() {
+    fn ground_and_gears_differ_in_grayscale() {
         let ground = [FREE, EXPANDED, CLOSED, OBSTACLE].map(Color::lightness);
         assert!(ground.windows(2).all(|w| w[0] - w[1] > 0.15), "{ground:?}");
         assert!(REVERSE.lightness() - FORWARD.lightness() > 0.15);

@@ -5,12 +5,11 @@ use super::legend::{self, scale_bar};
 use super::lettering::{Anchor, Lettering};
 use super::markup::Element;
 use super::palette;
+use super::style::LEFT_PX;
 use super::svg::Svg;
 use super::ticks;
 use crate::geometry::Point2;
 
-/// Room for coordinates left of a panel or plot.
-pub(super) const LEFT_PX: f64 = 44.0;
 /// Room for coordinates below the panel.
 const BELOW_PX: f64 = 22.0;
 /// Room between the coordinates and the legend.
@@ -36,7 +35,7 @@ impl Scene {
 
         let row = corner + Point2::new(0.0, panel.y + BELOW_PX + LEGEND_GAP_PX);
         let indent_px = self.draw_scale_bar(svg, row);
-        self.legend.draw(svg, row, (panel.x, indent_px));
+        self.legend.draw(svg, row, panel.x, indent_px);
     }
 
     /// Draws the panel alone, without coordinates and legend.
@@ -56,7 +55,7 @@ impl Scene {
     }
 
     fn draw_scale_bar(&self, svg: &mut Svg, at: Point2) -> f64 {
-        scale_bar(svg, at, (self.panel_px().x, self.view.px_per_m()))
+        scale_bar(svg, at, self.panel_px().x, self.view.px_per_m())
     }
 
     fn draw_coordinates(&self, svg: &mut Svg, corner: Point2) {

@@ -4,14 +4,11 @@ use super::Scene;
 use super::chart::Chart;
 use super::lettering::Lettering;
 use super::palette;
-use super::panel::LEFT_PX;
-use super::style::Layout;
+use super::style::{COLUMN_PX, LEFT_PX, Layout};
 use super::svg::Svg;
 use crate::geometry::Point2;
 
 const GAP_PX: f64 = 26.0;
-/// Width of charts beside a scene, or without one.
-pub(super) const COLUMN_PX: f64 = 460.0;
 const CHARTS_ALONE_PX: f64 = 900.0;
 const TITLE: Lettering = Lettering::new(22.0, palette::INK).bold();
 const CAPTION: Lettering = Lettering::new(14.0, palette::MUTED);

@@ -1,13 +1,13 @@
 //! The picture of a plan: map, poses, path, swept ground, tightest place and strip charts.
 
+use super::plan_parts::PlanPicture;
 use super::style::clearance_label;
 use super::view::frame_bounds;
-use super::{CellStyle, Layout, Picture, PoseMark, ProfilePoint, Scene};
+use super::{CellStyle, Layout, Picture, PoseMark, Scene};
 use super::{focus, palette, strip_charts};
-use crate::geometry::{Point2, Pose2};
+use crate::geometry::Point2;
 use crate::map::{BitGrid, Cell, OccupancyGrid};
 use crate::metrics::PathMetrics;
-use crate::path::CurvePath;
 use crate::planner::{Explanation, NotFound, Plan};
 use crate::scenario::Request;
 use crate::vehicle::{Motion, Vehicle};
@@ -16,55 +16,6 @@ use crate::vehicle::{Motion, Vehicle};
 const ENLARGEMENT: f64 = 1.8;
 /// Half the side of a detail, at least, to recognize the place by.
 const MIN_HALF_SIDE_CELLS: f64 = 2.0;
-
-/// The parts of the picture of a plan, or of a failure.
-///
-/// [`Plan::picture`] and [`NotFound::picture`] fill them in; for other pictures, end a literal with
-/// `..PlanPicture::new(map, vehicle, start, goal)`.
-#[derive(Clone, Copy, Debug)]
-pub struct PlanPicture<'a> {
-    /// The map.
-    pub map: &'a OccupancyGrid,
-    /// The vehicle, with its limits and footprint.
-    pub vehicle: &'a Vehicle,
-    /// The start pose.
-    pub start: Pose2,
-    /// The goal pose.
-    pub goal: Pose2,
-    /// Other places by name: goals that were not chosen, via points.
-    pub places: &'a [(Point2, String)],
-    /// The path, if there is one.
-    pub path: Option<&'a CurvePath>,
-    /// Values along the path; empty for no charts.
-    pub profile: &'a [ProfilePoint],
-    /// The reason why there is no path: its gap is ringed, its colliding cells are drawn.
-    pub failure: Option<&'a Explanation>,
-    /// The tightest place and its clearance in metres.
-    pub tightest: Option<(Point2, f64)>,
-    /// The heading.
-    pub title: &'a str,
-    /// Key numbers, or the reason why there is no path.
-    pub caption: &'a str,
-}
-
-impl<'a> PlanPicture<'a> {
-    /// A vehicle at its start and its goal on a map, and nothing else.
-    pub fn new(map: &'a OccupancyGrid, vehicle: &'a Vehicle, start: Pose2, goal: Pose2) -> Self {
-        Self {
-            map,
-            vehicle,
-            start,
-            goal,
-            places: &[],
-            path: None,
-            profile: &[],
-            failure: None,
-            tightest: None,
-            title: "",
-            caption: "",
-        }
-    }
-}
 
 impl Plan {
     /// The picture of the path on its map, with the tightest place and the key numbers. Title and

@@ -2,6 +2,11 @@
 
 use super::palette::{self, Color};
 
+/// Room for coordinates left of a panel or plot.
+pub(super) const LEFT_PX: f64 = 44.0;
+/// Width of charts beside a scene, or without one.
+pub(super) const COLUMN_PX: f64 = 460.0;
+
 /// The room that a picture has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Layout {
@@ -87,7 +92,7 @@ pub enum PoseMark {
     Goal,
 }
 
-/// A clearance with its unit, to the millimetre where it is small; contact has a word of its own.
+/// A clearance with its unit, to the millimeter where it is small; contact has a word of its own.
 pub(super) fn clearance_label(clearance_m: f64) -> String {
     if clearance_m == 0.0 {
         "contact".to_owned()

@@ -1,4 +1,4 @@
-//! From world metres to picture pixels: the one place where north turns up.
+//! From world meters to picture pixels: the one place where north turns up.
 
 use crate::geometry::{Point2, Pose2};
 use crate::map::GridFrame;

@@ -14,11 +14,11 @@ use crate::vehicle::Vehicle;
 #[non_exhaustive]
 pub struct DrivenClearance {
     /// Least distance from the footprint (with its safety margin) to an occupied cell square or
-    /// the map border, metres; 0 where it touched.
+    /// the map border, meters; 0 where it touched.
     pub min_clearance_m: f64,
     /// The pose where it is least.
     pub tightest: Pose2,
-    /// Length driven to that pose, metres.
+    /// Length driven to that pose, meters.
     pub tightest_driven_m: f64,
     /// The first contact of the body; null where it never touched.
     pub contact: Option<Contact>,
@@ -36,9 +36,9 @@ pub struct Contact {
     pub kind: ViolationKind,
     /// Time since the drive began, seconds.
     pub t_s: f64,
-    /// Length driven, metres.
+    /// Length driven, meters.
     pub driven_m: f64,
-    /// Arc length of the path's nearest place, metres.
+    /// Arc length of the path's nearest place, meters.
     pub s_m: f64,
     /// The pose of the vehicle.
     pub pose: Pose2,

@@ -1,8 +1,7 @@
 //! Control laws for the steering.
 
-use super::stretch::Stretch;
+use super::view::View;
 use super::{PurePursuit, Stanley};
-use crate::geometry::Pose2;
 use crate::parameters::{OutOfRange, Parameters};
 
 /// What turns the wheels.
@@ -23,18 +22,6 @@ impl Default for Controller {
     fn default() -> Self {
         Self::Stanley(Stanley::default())
     }
-}
-
-/// The input of a control law, in the travel frame.
-pub(super) struct View<'a> {
-    pub(super) stretch: &'a Stretch,
-    /// Length driven on the stretch.
-    pub(super) driven_m: f64,
-    /// The place on the stretch that is nearest to the rear axle.
-    pub(super) foot_m: f64,
-    pub(super) pose: Pose2,
-    pub(super) wheelbase_m: f64,
-    pub(super) speed_mps: f64,
 }
 
 impl Parameters for Controller {

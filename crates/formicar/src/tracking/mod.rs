@@ -12,6 +12,7 @@
 mod clearance;
 mod config;
 mod controller;
+mod document;
 mod errors;
 mod problem;
 mod pure_pursuit;
@@ -20,15 +21,15 @@ mod stanley;
 mod stretch;
 mod swept_area;
 mod trace;
+mod view;
 
 pub use clearance::{Contact, DrivenClearance};
 pub use config::{DEFAULT_SPEED_MPS, StartOffset, TrackingConfig};
 pub use controller::Controller;
+pub use document::{TRACKING_SCHEMA, TrackingDocument};
 pub use problem::TrackingError;
 pub use pure_pursuit::PurePursuit;
 pub use simulate::track;
 pub use stanley::Stanley;
 pub use swept_area::swept_area_m2;
-pub use trace::{
-    TRACKING_SCHEMA, TracePoint, Tracking, TrackingDocument, TrackingStatus, TrackingSummary,
-};
+pub use trace::{TracePoint, Tracking, TrackingStatus, TrackingSummary};

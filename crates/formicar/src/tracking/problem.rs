@@ -31,9 +31,9 @@ pub enum TrackingError {
     Gap {
         /// Place of the segment after the jump.
         index: usize,
-        /// The length of the jump, metres.
+        /// The length of the jump, meters.
         gap_m: f64,
-        /// The most that is allowed, metres.
+        /// The most that is allowed, meters.
         limit_m: f64,
     },
     /// A drive of too many steps.

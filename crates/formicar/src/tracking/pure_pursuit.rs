@@ -1,6 +1,6 @@
 //! Pure pursuit (Coulter 1992): the circle to a point ahead.
 
-use super::controller::View;
+use super::view::View;
 use crate::parameters::parameters;
 
 parameters! {

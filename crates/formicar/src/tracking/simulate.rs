@@ -1,9 +1,10 @@
 //! The simulation: look, turn the wheels, roll a step.
 
-use super::controller::{Controller, View};
+use super::controller::Controller;
 use super::errors::{Errors, Offset};
 use super::stretch::{Stretch, faced, stretches};
 use super::swept_area::swept_area_m2;
+use super::view::View;
 use super::{TracePoint, Tracking, TrackingConfig, TrackingError, TrackingStatus, TrackingSummary};
 use crate::geometry::{Pose2, angle_difference};
 use crate::path::{CurvePath, CurveSegment, Direction};
@@ -18,7 +19,7 @@ const LEAST_STEP: f64 = 0.01;
 /// the trembling about an arc that takes the limit itself.
 const SATURATED: f64 = 0.01;
 /// The largest distance of a driven arc's end from the simulated pose where the arc stands for
-/// several steps, metres.
+/// several steps, meters.
 const SAME_ARC_M: f64 = 1e-9;
 
 /// Drives a vehicle along a path.

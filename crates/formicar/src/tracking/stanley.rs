@@ -1,6 +1,6 @@
 //! The Stanley law (Hoffmann et al. 2007): the front wheels along the path, and towards it.
 
-use super::controller::View;
+use super::view::View;
 use crate::geometry::{Point2, wrap_angle};
 use crate::parameters::parameters;
 

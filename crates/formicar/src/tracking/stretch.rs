@@ -34,7 +34,7 @@ pub(super) fn faced(pose: Pose2, direction: Direction) -> Pose2 {
     }
 }
 
-/// Arcs that stand for a clothoid end at most so far from it, metres.
+/// Arcs that stand for a clothoid end at most so far from it, meters.
 const CLOTHOID_GAP_M: f64 = 0.1 * JOINT_TOLERANCE;
 
 /// The stretches of a path; none where it has no length.

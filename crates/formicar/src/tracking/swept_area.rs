@@ -12,7 +12,7 @@ const MAX_BULGE: f64 = 2e-4;
 /// Heading of the rows, radians: along no wall that people build.
 const ROW_HEADING_RAD: f64 = 0.7;
 
-/// The area of the ground that a footprint covers along a path, square metres; ground that is
+/// The area of the ground that a footprint covers along a path, square meters; ground that is
 /// covered twice counts once.
 ///
 /// The area covered at first, and the area that every edge sweeps from then on. The path is cut

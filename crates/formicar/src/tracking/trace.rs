@@ -1,12 +1,9 @@
-//! The result of a simulated drive: the trace, its summary, and both as a document.
+//! The result of a simulated drive: the trace and its summary.
 
-use super::{DrivenClearance, TrackingConfig};
+use super::TrackingConfig;
 use crate::geometry::Pose2;
 use crate::path::{CurvePath, Direction};
 use std::fmt::Write;
-
-/// Name and version of the document of a drive.
-pub const TRACKING_SCHEMA: &str = "formicar/track/1";
 
 /// The ending of a simulated drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,9 +39,9 @@ impl TrackingStatus {
 pub struct TracePoint {
     /// Time since the drive began, seconds; it goes on while the wheels are turned standing.
     pub t_s: f64,
-    /// Length driven so far, metres.
+    /// Length driven so far, meters.
     pub driven_m: f64,
-    /// Arc length of the path's nearest place, metres.
+    /// Arc length of the path's nearest place, meters.
     pub s_m: f64,
     /// The rear-axle center; heading in (-pi, pi].
     pub pose: Pose2,
@@ -57,7 +54,7 @@ pub struct TracePoint {
     pub left_wheel_rad: f64,
     /// Angle of the right front wheel.
     pub right_wheel_rad: f64,
-    /// Distance from the path, metres, positive where the vehicle is left of it as it faces.
+    /// Distance from the path, meters, positive where the vehicle is left of it as it faces.
     pub cross_track_error_m: f64,
     /// Heading less that of the path's nearest place, in (-pi, pi].
     pub heading_error_rad: f64,
@@ -71,19 +68,19 @@ pub struct TracePoint {
 pub struct TrackingSummary {
     /// Time from begin to end, seconds.
     pub duration_s: f64,
-    /// Driven length, metres.
+    /// Driven length, meters.
     pub driven_m: f64,
     /// Changes of gear driven.
     pub n_gear_changes: usize,
-    /// Largest distance from the path, metres, the first pose counted.
+    /// Largest distance from the path, meters, the first pose counted.
     pub max_cross_track_error_m: f64,
-    /// Root mean square of the distance over driven length, metres.
+    /// Root mean square of the distance over driven length, meters.
     pub rms_cross_track_error_m: f64,
     /// Largest absolute heading error, radians, the first pose counted.
     pub max_heading_error_rad: f64,
     /// Root mean square of the heading error over driven length, radians.
     pub rms_heading_error_rad: f64,
-    /// Distance of the last pose from the path's end, metres.
+    /// Distance of the last pose from the path's end, meters.
     pub goal_error_m: f64,
     /// Absolute heading difference between the last pose and the path's end, radians.
     pub goal_error_rad: f64,
@@ -94,7 +91,7 @@ pub struct TrackingSummary {
     /// Share of the driven length on which the controller asked for more than the steering limit,
     /// by over 1 %.
     pub steering_saturated_share: f64,
-    /// Ground that the footprint swept, square metres, as [`super::swept_area_m2`] measures it.
+    /// Ground that the footprint swept, square meters, as [`super::swept_area_m2`] measures it.
     pub swept_area_m2: f64,
 }
 
@@ -114,41 +111,7 @@ pub struct Tracking {
     pub config: TrackingConfig,
 }
 
-/// The document that front ends print about a simulated drive.
-#[derive(Clone, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct TrackingDocument<'a> {
-    /// Name and version of this document: `formicar/track/1`.
-    pub schema: &'static str,
-    /// True if the vehicle arrived and its body touched nothing.
-    pub tracked: bool,
-    /// The ending of the drive.
-    pub status: TrackingStatus,
-    /// Every parameter.
-    pub config: &'a TrackingConfig,
-    /// The drive in numbers.
-    pub summary: &'a TrackingSummary,
-    /// The clearance of the body.
-    pub clearance: &'a DrivenClearance,
-    /// The vehicle over time.
-    pub trace: &'a [TracePoint],
-}
-
 impl Tracking {
-    /// The drive as a document.
-    pub fn document<'a>(&'a self, clearance: &'a DrivenClearance) -> TrackingDocument<'a> {
-        TrackingDocument {
-            schema: TRACKING_SCHEMA,
-            tracked: self.status == TrackingStatus::Arrived && clearance.contact.is_none(),
-            status: self.status,
-            config: &self.config,
-            summary: &self.summary,
-            clearance,
-            trace: &self.trace,
-        }
-    }
-
     /// The trace as CSV, with a header.
     pub fn trace_csv(&self) -> String {
         let mut text = String::from(

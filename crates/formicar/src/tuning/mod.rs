@@ -25,10 +25,12 @@ mod colony;
 mod config;
 mod error;
 mod rule;
+mod source;
 mod space;
 
-pub use colony::{BeeColony, CycleRecord, Source};
+pub use colony::{BeeColony, CycleRecord};
 pub use config::{BeeColonyConfig, BeeVariant};
 pub use error::TuningError;
 pub use rule::SearchRule;
+pub use source::Source;
 pub use space::{Dimension, Kind, ParameterSpace};

@@ -1,6 +1,6 @@
 //! The rules by which a bee draws a candidate beside a food source.
 
-use super::colony::Source;
+use super::source::Source;
 use crate::numeric::RandomStream;
 
 /// The rule for one coordinate j of a candidate, drawn at random; the others are those of the
@@ -53,7 +53,8 @@ impl SearchRule {
     /// A candidate beside source `i`; there are at least four sources.
     pub(super) fn candidate(
         self,
-        (sources, i): (&[Source], usize),
+        sources: &[Source],
+        i: usize,
         best: &[f64],
         random: &mut RandomStream,
     ) -> Vec<f64> {
@@ -122,7 +123,7 @@ mod tests {
         for rule in SearchRule::ALL {
             let mut random = Seed(5).stream([0, 0]);
             let mut same = random.clone();
-            let candidate = rule.candidate((&sources, 0), &best, &mut random);
+            let candidate = rule.candidate(&sources, 0, &best, &mut random);
             same.below(1);
             let [a, b, c] = others(0, 4, &mut same).map(|r| sources[r].position[0]);
             let phi = same.range(-1.0, 1.0);

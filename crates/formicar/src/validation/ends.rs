@@ -35,7 +35,7 @@ pub(super) fn check(vehicle: &Vehicle, request: &Request, path: &CurvePath) -> E
     }
 }
 
-/// The message for a first pose that misses the start of a request by more than a tolerance, metres
+/// The message for a first pose that misses the start of a request by more than a tolerance, meters
 /// and radians: the place, and the heading where that is asked for.
 pub fn missed_start(
     vehicle: &Vehicle,

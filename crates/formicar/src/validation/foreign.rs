@@ -17,7 +17,7 @@
 //! gear changes; the first gear is the caller's to say. Between cusps the direction of motion at a
 //! point is the tangent of the circle through three consecutive points. Of the circles in which the
 //! point comes last, in the middle or first, the one whose curvature agrees best with its
-//! neighbours counts: beside a joint of two arcs this picks the circle that lies on one arc. Where
+//! neighbors counts: beside a joint of two arcs this picks the circle that lies on one arc. Where
 //! none of the three agrees (arcs shorter than three steps, noise), directions are chosen that keep
 //! the biarcs around them as flat as they can be. At a cusp the headings before and after it are
 //! averaged.
@@ -127,7 +127,7 @@ fn path_through(poses: &[Pose2], gears: &[Direction], rounding_m: f64) -> Option
 /// The most steps that one biarc may reach over.
 const MAX_REACH: usize = 64;
 
-/// Rounding that does not disturb curvatures, metres: every step gets its own biarc.
+/// Rounding that does not disturb curvatures, meters: every step gets its own biarc.
 const NEGLIGIBLE_ROUNDING_M: f64 = 1e-7;
 
 /// The farthest pose that one curve from the first reaches, and the curve.
@@ -327,7 +327,7 @@ mod tests {
     }
 
     #[test]
-    fn rounding_to_millimetres_stays_within_the_slack() {
+    fn rounding_to_millimeters_stays_within_the_slack() {
         let round = |v: f64| (v * 1e3).round() / 1e3;
         let rounded: Vec<_> = poses(&known())
             .iter()

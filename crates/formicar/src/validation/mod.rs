@@ -30,7 +30,7 @@ pub use report::{Certificate, Report, Violation, ViolationKind};
 pub use samples::{ReadSamples, Samples};
 pub use samples_error::SamplesError;
 
-/// The largest gap between two segments: metres, and radians.
+/// The largest gap between two segments: meters, and radians.
 pub const JOINT_TOLERANCE: f64 = 1e-6;
 
 /// The share of the limit by which a curvature or its rate of change may exceed it.

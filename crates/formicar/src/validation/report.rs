@@ -20,7 +20,7 @@ pub struct Report {
     pub tightest_s_m: f64,
     /// Largest absolute curvature.
     pub max_curvature_per_m: f64,
-    /// Fastest change of the curvature per driven metre along a segment; 0 on lines and arcs, whose
+    /// Fastest change of the curvature per driven meter along a segment; 0 on lines and arcs, whose
     /// jumps are not counted.
     pub max_curvature_rate_per_m2: f64,
     /// True if the curvature jumps nowhere inside one gear. Where the vehicle stands, at a change
@@ -60,7 +60,7 @@ pub struct Report {
 pub struct Violation {
     /// The kind of violation.
     pub kind: ViolationKind,
-    /// Arc length where it is worst (or where it lies), metres.
+    /// Arc length where it is worst (or where it lies), meters.
     pub s_m: f64,
     /// Pose there.
     pub pose: Pose2,

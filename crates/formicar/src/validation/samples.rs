@@ -13,7 +13,7 @@ pub struct Samples {
     pub points: Vec<Point2>,
     /// As many headings, where the file has them.
     pub headings: Option<Vec<f64>>,
-    /// Half a unit of the last decimal of the positions, where they are written to the millimetre
+    /// Half a unit of the last decimal of the positions, where they are written to the millimeter
     /// or finer; 0 for coarser ones, which are taken at their word.
     pub rounding_m: f64,
 }
@@ -42,7 +42,7 @@ impl Samples {
         ReadSamples::from_csv(text).map(|read| read.samples)
     }
 
-    /// The largest distance between the path and a sample, metres: both are rounded.
+    /// The largest distance between the path and a sample, meters: both are rounded.
     pub fn deviation_m(&self) -> f64 {
         deviation_m(self.rounding_m)
     }

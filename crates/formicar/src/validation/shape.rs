@@ -6,7 +6,7 @@ use crate::geometry::{Pose2, angle_difference};
 use crate::path::{CurvePath, CurveSegment};
 use crate::vehicle::{Motion, Vehicle};
 
-/// The longest segment that is judged, metres.
+/// The longest segment that is judged, meters.
 const MAX_LENGTH_M: f64 = 1e5;
 /// The most that a segment may turn, radians.
 const MAX_TURN_RAD: f64 = 1e4;

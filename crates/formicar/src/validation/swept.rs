@@ -15,7 +15,7 @@ pub(super) struct Swept {
     pub(super) violations: Vec<Violation>,
 }
 
-/// Most that a body point on a clothoid may be off the arc that is looked at in its place, metres.
+/// Most that a body point on a clothoid may be off the arc that is looked at in its place, meters.
 /// The deviation is taken off the clearance, which is then a lower bound, too low by less than
 /// twice this.
 const CLOTHOID_TOLERANCE_M: f64 = 5e-5;
@@ -30,7 +30,7 @@ struct Piece {
 }
 
 impl Piece {
-    /// A lower bound of the clearance, metres, exact on lines and arcs where it is below `limit_m`.
+    /// A lower bound of the clearance, meters, exact on lines and arcs where it is below `limit_m`.
     fn clearance_m(&self, obstacles: &ObstacleMap, body: &Body, limit_m: f64) -> f64 {
         let limit_m = limit_m + self.deviation_m;
         (obstacles.drive_clearance_m(body, &self.drive, limit_m) - self.deviation_m).max(0.0)
@@ -114,7 +114,7 @@ fn cut(obstacles: &ObstacleMap, body: &Body, path: &CurvePath) -> Vec<Piece> {
 /// section around the best.
 fn narrowest(obstacles: &ObstacleMap, body: &Body, drive: &Drive) -> (Pose2, f64) {
     const N_SAMPLES: usize = 16;
-    // From an eighth of a piece, which is half a body long, to about a millimetre.
+    // From an eighth of a piece, which is half a body long, to about a millimeter.
     const N_SECTIONS: u32 = 12;
     let clearance = |t: f64| obstacles.clearance_m(body, drive.pose_at(t));
     let sample = |i: usize| i as f64 / N_SAMPLES as f64;

@@ -52,7 +52,7 @@ impl Circles {
         Self { bends, largest }
     }
 
-    /// The difference between a circle and the more similar of its neighbours.
+    /// The difference between a circle and the more similar of its neighbors.
     fn roughness(&self, j: usize) -> f64 {
         let to = |other: Option<usize>| {
             let other = other.and_then(|i| self.bends.get(i));
@@ -71,7 +71,7 @@ impl Circles {
             .unwrap_or(middle)
     }
 
-    /// True if a circle and its neighbour are on one arc, as far as numbers tell.
+    /// True if a circle and its neighbor are on one arc, as far as numbers tell.
     fn is_settled(&self, j: usize) -> bool {
         self.bends.len() == 1 || self.roughness(j) <= 1e-4 * self.largest
     }

@@ -6,9 +6,9 @@ use crate::path::{CurvePath, CurveSegment};
 use crate::scenario::{Request, ViaPoint};
 use crate::vehicle::{Motion, Vehicle};
 
-/// Rounding that is no miss: metres, and radians.
+/// Rounding that is no miss: meters, and radians.
 const ROUNDING: f64 = 1e-9;
-/// The least step along a segment, as a share of the tolerance and in metres. A path that enters
+/// The least step along a segment, as a share of the tolerance and in meters. A path that enters
 /// a via point's disc for less than that may count as passing by.
 const LEAST_STEP_SHARE: f64 = 1e-3;
 const LEAST_STEP_M: f64 = 1e-4;
@@ -96,7 +96,7 @@ impl Gate {
         let off_m = self.off_m(pose) - tolerance.xy_m - ROUNDING;
         let off_rad = self.off_rad(pose) - tolerance.yaw_rad - ROUNDING;
         if off_rad > 0.0 {
-            // Headings change by the curvature per metre; on a line, not at all.
+            // Headings change by the curvature per meter; on a line, not at all.
             return off_m.max(off_rad / curvature_per_m.abs());
         }
         off_m

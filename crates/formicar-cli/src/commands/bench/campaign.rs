@@ -27,7 +27,7 @@ pub(super) fn read(path: &Path) -> Result<CampaignSpec> {
         .collect::<Result<Vec<_>>>()?;
     let mut tasks = Vec::new();
     for entry in &document.scenarios {
-        tasks.extend(scenarios(entry, (&document.text, folder), &contenders)?);
+        tasks.extend(scenarios(entry, &document.text, folder, &contenders)?);
     }
     check_names(&tasks).map_err(|error| document.text.mistake(None, error))?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -91,7 +91,8 @@ fn planners(contenders: &[Contender]) -> Vec<PlannerName> {
 /// The scenarios of one source: those of some ids, and of these at most so many.
 fn scenarios(
     entry: &ScenariosEntry,
-    (text, folder): (&Text, &Path),
+    text: &Text,
+    folder: &Path,
     contenders: &[Contender],
 ) -> Result<Vec<Task>> {
     let mut words: Vec<(String, Range<usize>)> = Vec::new();

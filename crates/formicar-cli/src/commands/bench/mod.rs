@@ -11,8 +11,9 @@ pub(crate) use sources::Files;
 
 use super::machine;
 use crate::failure::{Ending, Failure};
+use crate::files;
+use crate::output::print_json;
 use anyhow::{Context, Result};
-use formicar::map::format::write_atomically;
 use formicar::numeric::counted;
 use formicar_lab::analysis::Summary;
 use formicar_lab::campaign::{
@@ -48,8 +49,7 @@ pub(crate) fn run_one(job: &str, out: &mut impl Write) -> Result<Ending, Failure
     usage::end_with_parent();
     let job = serde_json::from_str(job).context("the run")?;
     let run = carry_out(&job, &Files, begun)?;
-    serde_json::to_writer(&mut *out, &run).map_err(std::io::Error::from)?;
-    writeln!(out)?;
+    print_json(out, &run)?;
     Ok(Ending::Done)
 }
 
@@ -67,7 +67,7 @@ fn into_store(
     let n_runs = carry_out_in_processes(&campaign, &mut store, n_at_once)?;
     let stored = store.stored()?;
     store.finish()?;
-    write_file(&csv, &stored.csv()?)?;
+    files::write(&csv, &stored.csv()?)?;
     let records: Vec<RunRecord> = stored.runs.into_iter().map(|run| run.record).collect();
     Summary::new(&records).write_plain(out)?;
     let files = format!("{} and {}", path.display(), csv.display());
@@ -85,22 +85,21 @@ fn into_folder(
     let peers = standing::peers(&spec.tasks)?;
     if args.paths {
         let paths = folder.join("paths");
-        std::fs::create_dir_all(&paths)
-            .with_context(|| format!("{} cannot be made", paths.display()))?;
+        files::make_folder(&paths)?;
         for run in &mut campaign.runs {
             let (scenario, planner, seed) = run.job.key();
             run.job.answer = Some(paths.join(format!("{scenario}.{planner}.{seed}.json")));
         }
     }
     let mut results = Folder::open(folder, &campaign, &args.conditions())?;
-    write_file(&folder.join("MACHINE.md"), &machine::description())?;
+    files::write(&folder.join("MACHINE.md"), machine::description())?;
     results.note_runs_at_once(args.jobs)?;
     let n_runs = carry_out_in_processes(&campaign, &mut results, args.jobs)?;
     let records = results.finish()?;
     let summary = Summary::new(&records);
-    write_file(&folder.join("summary.md"), &summary.markdown())?;
+    files::write(&folder.join("summary.md"), summary.markdown())?;
     for (name, text) in standing::files(args, &campaign, peers, records) {
-        write_file(&folder.join(name), &text)?;
+        files::write(&folder.join(name), &text)?;
     }
     summary.write_plain(out)?;
     let files = folder.display().to_string();
@@ -142,9 +141,4 @@ fn write_end(
     };
     writeln!(out, "{}{kept}: see {files}", counted(n_runs, "run"))?;
     Ok(Ending::Done)
-}
-
-fn write_file(path: &Path, text: &str) -> Result<()> {
-    write_atomically(path, text.as_bytes())
-        .with_context(|| format!("{} cannot be written", path.display()))
 }

@@ -8,7 +8,7 @@ use formicar::vehicle::Gears;
 use formicar_lab::analysis::parameter_section;
 use formicar_lab::analysis::standing::{Peer, Standing};
 use formicar_lab::campaign::Campaign;
-use formicar_lab::report::{Fact, Page, markdown, page};
+use formicar_lab::report::{Page, markdown, page};
 use formicar_lab::run::{RunRecord, Task};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -37,14 +37,9 @@ pub(super) fn files(
     let mut report = standing.report();
     let text = markdown(&report);
     report.sections.extend(parameter_section(configs));
-    let facts = machine::facts();
-    let facts: Vec<_> = facts
-        .iter()
-        .map(|(name, value)| Fact::new(name, value))
-        .collect();
     let whole = Page {
         report: &report,
-        facts: &facts,
+        facts: &machine::facts(),
         configs: &config_facts(configs),
     };
     [("standing.md", text), ("index.html", page(&whole))]

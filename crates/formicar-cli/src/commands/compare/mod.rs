@@ -6,10 +6,11 @@ pub(crate) use args::CompareArgs;
 
 use super::{bench, machine, results};
 use crate::failure::{Ending, Failure};
+use crate::output::print_json;
 use anyhow::Result;
 use formicar_lab::analysis::compare::{Comparison, Scope, Side};
 use formicar_lab::campaign::{check_once, name_of_file, read_results, run_in_turns};
-use formicar_lab::report::{Fact, latex, markdown};
+use formicar_lab::report::{latex, markdown};
 use formicar_lab::run::{Program, to_csv};
 use std::io::Write;
 use std::path::Path;
@@ -32,8 +33,7 @@ pub(crate) fn run(args: &CompareArgs, out: &mut impl Write) -> Result<Ending, Fa
         write(folder, &comparison, &sides, args.with.is_some())?;
     }
     if args.json {
-        serde_json::to_writer(&mut *out, &comparison).map_err(std::io::Error::from)?;
-        writeln!(out)?;
+        print_json(out, &comparison)?;
     } else {
         write!(out, "{}", markdown(&comparison.report()))?;
     }
@@ -87,9 +87,7 @@ fn write(
     with_tables: bool,
 ) -> Result<()> {
     let report = comparison.report();
-    let facts = machine::facts();
-    let facts: Vec<Fact> = facts.iter().map(|(n, v)| Fact::new(n, v)).collect();
-    let mut files = results::report_files(&report, &facts, &[]);
+    let mut files = results::report_files(&report, &machine::facts(), &[]);
     files.push(("tables.tex".to_owned(), latex(&report)));
     if with_tables {
         for (side, name) in sides.iter().zip(["a.csv", "b.csv"]) {

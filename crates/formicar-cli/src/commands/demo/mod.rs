@@ -7,6 +7,7 @@ mod run;
 mod table;
 
 use crate::failure::{Ending, Failure};
+use crate::files;
 use crate::output::Target;
 use anyhow::{Context, Result, bail};
 use case::Case;
@@ -96,8 +97,7 @@ fn write_files(folder: &Path, done: &Done) -> Result<()> {
     for (extension, bytes) in done.files()? {
         let name = format!("{}.{extension}", done.case.id());
         let path = folder.join(RUNS_FOLDER).join(name);
-        formicar::map::format::write_atomically(&path, &bytes)
-            .with_context(|| format!("{} cannot be written", path.display()))?;
+        files::write(&path, bytes)?;
     }
     Ok(())
 }

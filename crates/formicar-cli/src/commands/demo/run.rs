@@ -2,12 +2,12 @@
 
 use super::case::Case;
 use crate::ants::{self, AntsKind};
-use crate::clock::{Clock, Watch};
 use crate::picture::{self, PictureKind};
+use crate::session::{Answered, Session};
 use anyhow::{Context, Result};
 use formicar::map::builtin::BuiltinKind;
 use formicar::numeric::Seed;
-use formicar::planner::{Answer, AnswerContext, Planner, PlannerConfig, Timing};
+use formicar::planner::{Answer, PlannerConfig};
 use formicar::progress::AntFrames;
 use formicar::render::{Layout, Picture};
 use std::time::Instant;
@@ -37,45 +37,24 @@ pub(super) struct Done<'a> {
 /// Carries out a run. An end without a path is no error.
 pub(super) fn run(case: &Case) -> Result<Done<'_>> {
     let begun = Instant::now();
-    let ground = case.ground()?;
     let config = PlannerConfig::of(case.planner);
-    let setup = Instant::now();
-    let mut planner = Planner::new(&ground.map, ground.vehicle.vehicle.clone(), config)?;
-    let map_setup_s = setup.elapsed().as_secs_f64();
-
-    let request = case.request();
-    let has_film = case.planner.colony().is_some() && case.map.kind == BuiltinKind::GridProblem;
-    let (n_cols, n_rows) = (ground.map.frame().n_cols(), ground.map.frame().n_rows());
-    let mut kept = has_film.then(|| AntFrames::new(n_cols, n_rows));
-    let mut watch = Watch {
-        clock: Clock::begin(),
-        ants: kept.as_mut(),
-    };
-    let result = planner.plan(&request, SEED, &mut watch);
-    let clock = watch.clock;
-    let timing = Timing {
-        map_setup_s,
-        first_feasible_s: clock.first_feasible_s(),
-        query_s: clock.query_s(),
-        total_s: begun.elapsed().as_secs_f64(),
-    };
-
-    let context = AnswerContext {
-        planner: &planner,
-        map: ground.record.clone(),
-        vehicle_name: &ground.vehicle.name,
-    };
-    let answer = context.answer(Some(&request), SEED, &result, timing);
+    let mut session = Session::new(case.ground()?, config, begun)?;
+    if case.planner.colony().is_some() && case.map.kind == BuiltinKind::GridProblem {
+        session.keep_ants();
+    }
+    let Answered { answer, result, .. } = session.plan(Ok(case.request()), SEED);
     let outcome = result.with_context(|| case.id())?;
+    let (ground, obstacles) = (&session.scene, &session.obstacles);
     let drawn = |layout| {
-        let mut picture = picture::of(&ground, planner.obstacles(), &answer, &outcome, layout);
+        let mut picture = picture::of(ground, obstacles, &answer, &outcome, layout);
         picture.title = format!("{}: {}", case.title(), status(&answer));
         picture
     };
     let (picture, phone) = (drawn(Layout::Page), drawn(Layout::Phone));
+    let kept = session.ants.as_ref().map(AntFrames::frames);
     let film = kept
-        .filter(|kept| !kept.frames().is_empty())
-        .map(|kept| ants::encode(&ground, &answer, &outcome, kept.frames(), AntsKind::Gif));
+        .filter(|frames| !frames.is_empty())
+        .map(|frames| ants::encode(ground, &answer, &outcome, frames, AntsKind::Gif));
     let png = case
         .has_png
         .then(|| picture::encode(&picture, PictureKind::Png));

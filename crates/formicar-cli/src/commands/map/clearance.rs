@@ -3,6 +3,7 @@
 use super::args::ClearanceArgs;
 use super::files;
 use crate::failure::{Ending, Failure};
+use crate::output::print_json;
 use anyhow::{Result, bail};
 use formicar::collision::ObstacleMap;
 use formicar::geometry::Point2;
@@ -38,8 +39,7 @@ pub(super) fn run(args: &ClearanceArgs, out: &mut impl Write) -> Result<Ending, 
     ];
     let clearance = measure(&obstacles, [args.start, args.goal], ends);
     if args.json {
-        serde_json::to_writer(&mut *out, &clearance).map_err(io::Error::from)?;
-        writeln!(out)?;
+        print_json(out, &clearance)?;
     } else {
         explain(&clearance, out)?;
     }

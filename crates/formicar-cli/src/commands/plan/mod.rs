@@ -8,7 +8,7 @@ pub(crate) use args::PlanArgs;
 
 use crate::ants::{self, AntsKind};
 use crate::failure::{Ending, Failure, note};
-use crate::output::Target;
+use crate::output::{Target, print_json};
 use crate::picture::{self, PictureKind};
 use crate::scene::{self, Scene};
 use crate::session::{Answered, Session};
@@ -20,7 +20,6 @@ use formicar::planner::{RequestDocument, ViaRecord};
 use formicar::render::Layout;
 use formicar::scenario::{CurvatureMode, CurvatureRate, ViaPoint};
 use std::io::Write;
-use std::path::Path;
 use std::time::Instant;
 
 /// The contents of `--out`.
@@ -65,8 +64,7 @@ pub(crate) fn run(args: &PlanArgs, out: &mut impl Write) -> Result<Ending, Failu
         write_files(&session, &answered, &targets)?;
     }
     if args.json {
-        serde_json::to_writer(&mut *out, &answered.answer).map_err(std::io::Error::from)?;
-        writeln!(out)?;
+        print_json(out, &answered.answer)?;
     } else if let Err(error) = answered.result {
         return Err(Failure::Input(error.into()));
     } else {
@@ -80,15 +78,11 @@ impl Targets {
     fn of(args: &PlanArgs) -> Result<Self> {
         let out_kinds = [("json", OutKind::Answer), ("csv", OutKind::Poses)];
         Ok(Self {
-            out: target(args.out.as_deref(), &out_kinds)?,
-            picture: target(args.picture.as_deref(), &picture::KINDS)?,
-            ants: target(args.ants.as_deref(), &ants::KINDS)?,
+            out: Target::of(args.out.as_deref(), &out_kinds)?,
+            picture: Target::of(args.picture.as_deref(), &picture::KINDS)?,
+            ants: Target::of(args.ants.as_deref(), &ants::KINDS)?,
         })
     }
-}
-
-fn target<Kind: Copy>(path: Option<&Path>, kinds: &[(&str, Kind)]) -> Result<Option<Target<Kind>>> {
-    path.map(|path| Target::new(path, kinds)).transpose()
 }
 
 /// The request of the flags; the scenario or built-in map supplies missing ends.

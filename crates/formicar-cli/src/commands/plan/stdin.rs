@@ -1,6 +1,7 @@
 //! `plan --stdin`: a request per line, an answer per line, one warm planner.
 
 use crate::failure::{Ending, Failure};
+use crate::output::print_json;
 use crate::session::Session;
 use anyhow::{Context, Result};
 use formicar::numeric::Seed;
@@ -33,8 +34,7 @@ pub(super) fn run(
                 answer
             }
         };
-        serde_json::to_writer(&mut *out, &answer).map_err(std::io::Error::from)?;
-        writeln!(out)?;
+        print_json(out, &answer)?;
         out.flush()?;
     }
     Ok(Ending::Done)

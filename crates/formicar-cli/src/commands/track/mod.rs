@@ -6,7 +6,7 @@ mod words;
 pub(crate) use args::TrackArgs;
 
 use crate::failure::{Ending, Failure};
-use crate::output::Target;
+use crate::output::{Target, print_json};
 use crate::path_file;
 use crate::picture::{self, PictureKind};
 use crate::scene;
@@ -14,21 +14,13 @@ use anyhow::{Context, Result};
 use formicar::collision::ObstacleMap;
 use formicar::render::{DrivePicture, drive_picture};
 use formicar::tracking::track;
-use std::io::{self, Write};
+use std::io::Write;
 use words::Driven;
 
 /// Carries out `track`.
 pub(crate) fn run(args: &TrackArgs, out: &mut impl Write) -> Result<Ending, Failure> {
-    let table = args
-        .csv
-        .as_deref()
-        .map(|path| Target::new(path, &[("csv", ())]));
-    let table = table.transpose()?;
-    let image = args
-        .picture
-        .as_deref()
-        .map(|path| Target::new(path, &picture::KINDS));
-    let image = image.transpose()?;
+    let table = Target::of(args.csv.as_deref(), &[("csv", ())])?;
+    let image = Target::of(args.picture.as_deref(), &picture::KINDS)?;
     let config = args.config()?;
     let scene = scene::load(&args.scene)?;
     let vehicle = &scene.vehicle.vehicle;
@@ -55,8 +47,7 @@ pub(crate) fn run(args: &TrackArgs, out: &mut impl Write) -> Result<Ending, Fail
     let document = drive.document(driven.clearance);
     let tracked = document.tracked;
     if args.json {
-        serde_json::to_writer(&mut *out, &document).map_err(io::Error::from)?;
-        writeln!(out)?;
+        print_json(out, &document)?;
     } else {
         words::explain(&driven, out)?;
     }

@@ -9,16 +9,14 @@ use super::machine;
 use crate::failure::{Ending, Failure, note};
 use crate::{files, settings};
 use anyhow::{Context, Result, bail};
-use formicar::map::format::write_atomically;
 use formicar::numeric::Seed;
 use formicar::tuning::BeeColonyConfig;
 use formicar::vehicle::Motion;
-use formicar_lab::report::{Fact, Page, markdown, page};
+use formicar_lab::report::{Page, markdown, page};
 use formicar_lab::tuning::{
     Asked, Objective, Tuning, TuningSpace, TuningState, Verdict, split, tuned_text,
 };
 use indicatif::ProgressBar;
-use std::fs;
 use std::io::Write;
 use std::path::Path;
 
@@ -26,8 +24,7 @@ use std::path::Path;
 pub(crate) fn run(args: &TuneArgs, out: &mut impl Write) -> Result<Ending, Failure> {
     let tuning = tuning(args)?;
     let begun = tuning.begin()?;
-    fs::create_dir_all(&args.out)
-        .with_context(|| format!("{} cannot be made", args.out.display()))?;
+    files::make_folder(&args.out)?;
     let file = match &args.state {
         Some(file) => file.clone(),
         None => args.out.join("state.json"),
@@ -54,8 +51,7 @@ fn tuning(args: &TuneArgs) -> Result<Tuning> {
     }
     let settings = settings::load(args.config.as_deref(), &args.set, Some(args.planner))?;
     let base = settings.for_motion(Motion::Car);
-    let chosen = (&args.parameter[..], &args.group[..]);
-    let (space, left_out) = TuningSpace::new(&base, chosen, &args.range)?;
+    let (space, left_out) = TuningSpace::new(&base, &args.parameter, &args.group, &args.range)?;
     if !left_out.is_empty() {
         let keys = left_out.join(", ");
         note(&format!(
@@ -123,16 +119,14 @@ fn search(tuning: &Tuning, begun: TuningState, file: &Path) -> Result<TuningStat
     while !state.colony().is_done() {
         bar.set_position(state.colony().n_evaluations());
         tuning.cycle(&mut state)?;
-        write_file(file, state.text()?.as_bytes())?;
+        files::write(file, state.text()?)?;
     }
     bar.finish_and_clear();
     Ok(state)
 }
 
 fn write_all(folder: &Path, verdict: &Verdict) -> Result<()> {
-    let machine = machine::facts();
-    let machine = machine.iter().map(|(name, value)| Fact::new(name, value));
-    let facts: Vec<Fact> = machine.chain(verdict.facts.iter().cloned()).collect();
+    let facts = [machine::facts(), verdict.facts.clone()].concat();
     let page = page(&Page {
         report: &verdict.report,
         facts: &facts,
@@ -147,11 +141,7 @@ fn write_all(folder: &Path, verdict: &Verdict) -> Result<()> {
         ("runs.csv", verdict.runs_csv.clone()),
         ("MACHINE.md", machine::description()),
     ] {
-        write_file(&folder.join(name), text.as_bytes())?;
+        files::write(&folder.join(name), text)?;
     }
     Ok(())
-}
-
-fn write_file(path: &Path, bytes: &[u8]) -> Result<()> {
-    write_atomically(path, bytes).with_context(|| format!("{} cannot be written", path.display()))
 }

@@ -2,7 +2,9 @@
 
 use super::metric::{Better, Kind, METRICS, Metric, SUCCESS, Scope};
 use super::pairs::{Pair, Pairs};
-use crate::analysis::statistics::{bootstrap_median, holm, quantile, vargha_delaney_a, wilcoxon};
+use crate::analysis::statistics::{
+    bootstrap_median, holm, quantile, rank_balance, vargha_delaney_a, wilcoxon,
+};
 use formicar::numeric::Seed;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -176,7 +178,7 @@ impl<'a> Values<'a> {
     }
 
     fn verdict(&self, metric: &Metric, p: Option<f64>) -> Verdict {
-        let lean = lean(&self.differences());
+        let lean = rank_balance(&self.differences());
         let is_noise = metric.kind == Kind::Measurement
             && self
                 .ratio()
@@ -217,32 +219,5 @@ impl<'a> Values<'a> {
             above: self.above(),
             verdict,
         }
-    }
-}
-
-/// The sum of the positive ranks minus that of the negative ones, as the signed-rank test counts
-/// them: to which side the differences lean.
-fn lean(differences: &[f64]) -> f64 {
-    let mut sorted: Vec<f64> = differences.iter().copied().filter(|d| *d != 0.0).collect();
-    sorted.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-    let (mut sum, mut rank) = (0.0, 0.0);
-    for equal in sorted.chunk_by(|a, b| a.abs() == b.abs()) {
-        let n = equal.len() as f64;
-        sum += (rank + 0.5 * (n + 1.0)) * equal.iter().map(|d| d.signum()).sum::<f64>();
-        rank += n;
-    }
-    sum
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn differences_lean_to_the_greater_rank_sum() {
-        // Ranks 1.5, 1.5 and 3: up 1.5, down 4.5.
-        assert_eq!(lean(&[1.0, -1.0, 0.0, -2.0]), -3.0);
-        assert_eq!(lean(&[0.0, 0.0]), 0.0);
-        assert_eq!(lean(&[5.0]), 1.0);
     }
 }

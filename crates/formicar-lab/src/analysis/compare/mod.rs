@@ -14,6 +14,7 @@ pub use tables::METHOD;
 pub(crate) use not_run::{describe_not_run, not_run};
 pub(crate) use pairs::paired;
 
+use crate::analysis::statistics::distinct;
 use crate::run::Run;
 use anyhow::{Result, bail};
 use pairs::Pairs;
@@ -136,14 +137,7 @@ impl Duel {
 
 /// The planners of runs, in the order of their first.
 pub(crate) fn planners(runs: &[Run]) -> Vec<&str> {
-    let mut names: Vec<&str> = Vec::new();
-    for run in runs {
-        let name = run.record.planner.as_str();
-        if !names.contains(&name) {
-            names.push(name);
-        }
-    }
-    names
+    distinct(runs.iter().map(|run| run.record.planner.as_str()))
 }
 
 /// The runs of a planner.

@@ -1,7 +1,7 @@
 //! A comparison as a report.
 
 use super::{Comparison, Duel, Finding, METRICS, SUCCESS};
-use crate::report::{Block, Field, Report, Section, Table};
+use crate::report::{Block, Column, Field, Report, Section, Table};
 
 /// The method of comparison, in words.
 pub const METHOD: &str = "Paired by scenario and seed. Medians over the pairs in which both sides \
@@ -61,36 +61,30 @@ impl Duel {
     }
 
     fn table(&self, [a, b]: Names) -> Table {
-        let heading = [
-            "metric", a, b, "pairs", "equal", "ratio", "p", "A", "verdict",
+        let columns: [Column<&Finding>; 9] = [
+            ("metric", &|finding| Field::words(finding.metric)),
+            (a, &|finding| side(finding, 0)),
+            (b, &|finding| side(finding, 1)),
+            ("pairs", &|finding| Field::count(finding.n_pairs)),
+            ("equal", &|finding| Field::count(finding.n_equal)),
+            ("ratio", &|finding| Field::Spread(finding.ratio, 3)),
+            ("p", &|finding| Field::Probability(finding.p)),
+            ("A", &|finding| Field::Number(finding.above, 2)),
+            ("verdict", &|finding| Field::words(finding.verdict.words())),
         ];
-        let mut table = Table::new(&format!("compare {}", self.planners[1]), &heading);
-        for finding in &self.findings {
-            table.row(row(finding));
-        }
-        table
+        let key = format!("compare {}", self.planners[1]);
+        Table::of(&key, &self.findings, &columns)
     }
 }
 
-fn row(finding: &Finding) -> Vec<Field> {
+fn side(finding: &Finding, i: usize) -> Field {
     let metric = METRICS.iter().find(|metric| metric.name == finding.metric);
     let n_decimals = metric.map_or(3, |metric| metric.n_decimals);
     let n = finding.n_all_pairs;
-    let side = |i: usize| match finding.of_sides {
+    match finding.of_sides {
         Some(shares) if finding.metric == SUCCESS => {
             Field::Count((shares[i] * n as f64).round() as usize, n)
         }
         medians => Field::Number(medians.map(|medians| medians[i]), n_decimals),
-    };
-    vec![
-        Field::words(finding.metric),
-        side(0),
-        side(1),
-        Field::Number(Some(finding.n_pairs as f64), 0),
-        Field::Number(Some(finding.n_equal as f64), 0),
-        Field::Spread(finding.ratio, 3),
-        Field::Probability(finding.p),
-        Field::Number(finding.above, 2),
-        Field::words(finding.verdict.words()),
-    ]
+    }
 }

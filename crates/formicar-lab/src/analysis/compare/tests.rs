@@ -10,13 +10,16 @@ type Values = fn(usize) -> serde_json::Value;
 fn side(name: &str, planner: &str, values: Values) -> Side {
     let record = |i: usize| {
         let mut run = Run::default();
-        run.record.fill(&json!({
-            "scenario": format!("s{}", i / 2), "planner": planner, "seed": i % 2,
-            "status": "found", "valid": true,
-        }));
-        run.record.fill(&values(i));
+        run.record
+            .fill(&json!({
+                "scenario": format!("s{}", i / 2), "planner": planner, "seed": i % 2,
+                "status": "found", "valid": true,
+            }))
+            .unwrap();
+        run.record.fill(&values(i)).unwrap();
         run.origin
-            .fill(&json!({"machine": "one", "build": "release", "map_hash": "m"}));
+            .fill(&json!({"machine": "one", "build": "release", "map_hash": "m"}))
+            .unwrap();
         run
     };
     Side {
@@ -214,7 +217,7 @@ fn success_counts_once_where_only_the_length_varies() {
             "scenario": format!("s{}", scenario(i)), "seed": if is_of_first(i) { i % 16 } else { 0 },
             "status": if is_solved { "found" } else { "no_path" }, "valid": is_solved,
             "length_m": if is_of_first(i) { 10.0 + i as f64 } else { 10.0 },
-        }));
+        })).unwrap();
         run
     };
     let side = |name: &str, solves: &dyn Fn(usize) -> bool| Side {

@@ -1,7 +1,7 @@
 //! Goals that runs meet or miss by themselves: certificates, times, memory, clearance.
 
 use super::numbers::{Runs, largest, median, p90};
-use crate::report::{Field, Table};
+use crate::report::{Column, Field, Table};
 use crate::run::{RunRecord, RunStatus, number};
 
 /// Goals for maps of a size: columns and rows, map set-up (median), and the first path (median,
@@ -41,15 +41,15 @@ impl Goal {
 
 /// Goals as a table.
 pub(super) fn table(goals: &[Goal]) -> Table {
-    let mut table = Table::new("goals", &["goal", "wanted", "reached", "met"]);
-    for goal in goals {
-        let met = if goal.is_met { "yes" } else { "no" };
-        let words = [&goal.what, &goal.wanted, &goal.reached];
-        let mut row: Vec<Field> = words.map(|words| Field::words(words)).into();
-        row.push(Field::words(met));
-        table.row(row);
-    }
-    table
+    let columns: [Column<&Goal>; 4] = [
+        ("goal", &|goal| Field::words(&goal.what)),
+        ("wanted", &|goal| Field::words(&goal.wanted)),
+        ("reached", &|goal| Field::words(&goal.reached)),
+        ("met", &|goal| {
+            Field::words(if goal.is_met { "yes" } else { "no" })
+        }),
+    ];
+    Table::of("goals", goals, &columns)
 }
 
 /// Goals that need no peers.

@@ -8,21 +8,11 @@ mod rivals;
 mod tables;
 
 pub use peers::Peer;
+pub use rivals::Standing;
 
+use crate::analysis::statistics::distinct;
 use crate::report::{Report, Section};
-use crate::run::RunRecord;
 use numbers::Runs;
-
-/// Runs of some planners, and the results of peers on the same scenarios.
-#[derive(Clone, Debug, Default)]
-pub struct Standing {
-    /// The runs.
-    pub runs: Vec<RunRecord>,
-    /// The peers, if any are known.
-    pub peers: Vec<Peer>,
-    /// True if the runs could drive forward only: their peers are those that drive Dubins curves.
-    pub forward_only: bool,
-}
 
 impl Standing {
     /// Goals, variants, peers and all runs, in this order.
@@ -65,13 +55,7 @@ impl Standing {
 
     /// The planners, in the order of their first runs; the plain one of variants first.
     fn planners(&self) -> Vec<&str> {
-        let mut names: Vec<&str> = Vec::new();
-        for run in &self.runs {
-            if !names.contains(&run.planner.as_str()) {
-                names.push(&run.planner);
-            }
-        }
-        names
+        distinct(self.runs.iter().map(|run| run.planner.as_str()))
     }
 
     fn runs_of(&self, planner: &str) -> Runs<'_> {

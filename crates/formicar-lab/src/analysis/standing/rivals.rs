@@ -2,7 +2,7 @@
 
 use super::goals::{Goal, ms};
 use super::numbers::{Runs, first_s, largest, median, p90, smallest};
-use super::{Peer, Standing};
+use super::peers::Peer;
 use crate::run::{RunRecord, number};
 use std::collections::BTreeMap;
 
@@ -10,6 +10,17 @@ use std::collections::BTreeMap;
 const SMAC_RATIO: f64 = 20.0;
 /// Length at 0.1 s and at 1 s beside the best valid peer, at the median.
 const LENGTH_RATIOS: [f64; 2] = [1.03, 1.0];
+
+/// Runs of some planners, and the results of peers on the same scenarios.
+#[derive(Clone, Debug, Default)]
+pub struct Standing {
+    /// The runs.
+    pub runs: Vec<RunRecord>,
+    /// The peers, if any are known.
+    pub peers: Vec<Peer>,
+    /// True if the runs could drive forward only: their peers are those that drive Dubins curves.
+    pub forward_only: bool,
+}
 
 impl Standing {
     /// The peers that count: under forward motion, those that drive forward only.

@@ -1,8 +1,10 @@
 //! Runs as sections of a report.
 
+use super::goals;
 use super::numbers::{Runs, first_s, median, p90};
-use super::{Peer, Standing, goals};
-use crate::report::{Block, Field, Section, Table};
+use super::peers::Peer;
+use super::rivals::Standing;
+use crate::report::{Column, Field, Section, Table};
 use crate::run::{RunRecord, RunStatus, number};
 
 /// Goals of a planner, and whether they are met.
@@ -20,56 +22,48 @@ pub(super) fn goals(standing: &Standing, runs: &Runs) -> Section {
 
 /// Planners, or variants of one, beside the first of them.
 pub(super) fn variants(of_planners: &[Runs]) -> Section {
-    let heading = [
-        "planner",
-        "solved",
-        "first path ms",
-        "p90",
-        "steps to it",
-        "steps",
-        "query ms",
-        "first length / first",
-        "length / first",
-        "cost / first",
-        "clearance m",
-        "cusps",
-    ];
-    let caption = "Medians over all runs, of lengths and costs those of the ratios to the first \
-                   planner's run of the same scenario and seed; cusps are means.";
-    let mut table = Table::new("variants", &heading).captioned(caption);
-    for runs in of_planners {
-        table.row(variant(runs, &of_planners[0]));
-    }
-    Section::of_table("Variants", table)
-}
-
-fn variant(runs: &Runs, first: &Runs) -> Vec<Field> {
-    let value = |of: fn(&RunRecord) -> Option<f64>| median(&runs.values(of));
-    let ratio = |of: fn(&RunRecord) -> Option<f64>| {
+    type Of = fn(&RunRecord) -> Option<f64>;
+    let value = |runs: &Runs, of: Of| median(&runs.values(of));
+    let ratio = |runs: &Runs, of: Of| {
         let ratio = |run: &RunRecord| {
-            let same = first.by_scenario.get(run.scenario.as_str())?;
+            let same = of_planners[0].by_scenario.get(run.scenario.as_str())?;
             let same = same.iter().find(|other| other.seed == run.seed)?;
             Some(of(run)? / of(same)?)
         };
-        median(&runs.values(ratio))
+        Field::Number(median(&runs.values(ratio)), 4)
     };
-    let first_s = runs.first_s();
+    let columns: [Column<&Runs>; 12] = [
+        ("planner", &|r| Field::words(r.planner)),
+        ("solved", &|r| Field::Count(r.n_solved(), r.all.len())),
+        ("first path ms", &|r| time(median(&r.first_s()))),
+        ("p90", &|r| time(p90(&r.first_s()))),
+        ("steps to it", &|r| {
+            Field::Number(value(r, |run| number(run.first_steps)), 0)
+        }),
+        ("steps", &|r| {
+            Field::Number(value(r, |run| number(run.steps)), 0)
+        }),
+        ("query ms", &|r| time(value(r, |run| run.query_s))),
+        ("first length / first", &|r| {
+            ratio(r, |run| run.first_length_m)
+        }),
+        ("length / first", &|r| ratio(r, |run| run.length_m)),
+        ("cost / first", &|r| ratio(r, |run| run.cost_m)),
+        ("clearance m", &|r| {
+            Field::Number(value(r, |run| run.min_clearance_m), 3)
+        }),
+        ("cusps", &|r| Field::Number(mean_cusps(r), 2)),
+    ];
+    let table = Table::of("variants", of_planners, &columns).captioned(
+        "Medians over all runs, of lengths and costs those of the ratios to the first planner's \
+         run of the same scenario and seed; cusps are means.",
+    );
+    Section::of_table("Variants", table)
+}
+
+fn mean_cusps(runs: &Runs) -> Option<f64> {
     let cusps = runs.values(|run| number(run.n_cusps));
-    let mean_cusps = cusps.iter().sum::<f64>() / cusps.len() as f64;
-    vec![
-        Field::words(runs.planner),
-        Field::Count(runs.n_solved(), runs.all.len()),
-        time(median(&first_s)),
-        time(p90(&first_s)),
-        Field::Number(value(|run| number(run.first_steps)), 0),
-        Field::Number(value(|run| number(run.steps)), 0),
-        time(value(|run| run.query_s)),
-        Field::Number(ratio(|run| run.first_length_m), 4),
-        Field::Number(ratio(|run| run.length_m), 4),
-        Field::Number(ratio(|run| run.cost_m), 4),
-        Field::Number(value(|run| run.min_clearance_m), 3),
-        Field::Number(Some(mean_cusps).filter(|mean| mean.is_finite()), 2),
-    ]
+    (!cusps.is_empty()).then(|| cusps.iter().sum::<f64>() / cusps.len() as f64)
 }
 
 /// Every peer's row beside ours, a section for each file of scenarios; none without peers.
@@ -162,42 +156,29 @@ fn peer_row(peer: &Peer) -> Vec<Field> {
 
 /// Every run of a planner.
 pub(super) fn runs(runs: &Runs) -> Section {
-    let heading = [
-        "run",
-        "ended",
-        "first path ms",
-        "query ms",
-        "first length m",
-        "at 0.1 s",
-        "at 1 s",
-        "in the end",
-        "clearance m",
-        "cusps",
-        "steps",
-        "peak MB",
+    let megabytes = |bytes: Option<u64>| number(bytes).map(|bytes| bytes / 1e6);
+    let columns: [Column<&&RunRecord>; 12] = [
+        ("run", &|run| {
+            Field::Words(format!("{} seed {}", run.scenario, run.seed))
+        }),
+        ("ended", &|run| Field::words(run.status.name())),
+        ("first path ms", &|run| time(run.first_feasible_s)),
+        ("query ms", &|run| time(run.query_s)),
+        ("first length m", &|run| {
+            Field::Number(run.first_length_m, 2)
+        }),
+        ("at 0.1 s", &|run| Field::Number(run.length_by_tenth_m, 2)),
+        ("at 1 s", &|run| Field::Number(run.length_by_second_m, 2)),
+        ("in the end", &|run| Field::Number(run.length_m, 2)),
+        ("clearance m", &|run| Field::Number(run.min_clearance_m, 3)),
+        ("cusps", &|run| Field::Number(number(run.n_cusps), 0)),
+        ("steps", &|run| Field::Number(number(run.steps), 0)),
+        ("peak MB", &|run| {
+            Field::Number(megabytes(run.peak_rss_bytes), 1)
+        }),
     ];
-    let mut table = Table::new("runs", &heading);
-    for run in &runs.all {
-        table.row(vec![
-            Field::Words(format!("{} seed {}", run.scenario, run.seed)),
-            Field::words(run.status.name()),
-            time(run.first_feasible_s),
-            time(run.query_s),
-            Field::Number(run.first_length_m, 2),
-            Field::Number(run.length_by_tenth_m, 2),
-            Field::Number(run.length_by_second_m, 2),
-            Field::Number(run.length_m, 2),
-            Field::Number(run.min_clearance_m, 3),
-            Field::Number(number(run.n_cusps), 0),
-            Field::Number(number(run.steps), 0),
-            Field::Number(number(run.peak_rss_bytes).map(|bytes| bytes / 1e6), 1),
-        ]);
-    }
     let heading = format!("Every run of `{}`", runs.planner);
-    Section {
-        heading,
-        blocks: vec![Block::Table(table)],
-    }
+    Section::of_table(&heading, Table::of("runs", &runs.all, &columns))
 }
 
 /// Seconds in milliseconds; nothing where it takes forever.

@@ -1,5 +1,6 @@
 use super::*;
 use crate::report::{Field, Table, markdown};
+use crate::run::RunRecord;
 use crate::run::{RunStatus, read_csv};
 
 const PEERS: &str = "\

@@ -11,8 +11,19 @@ mod wilson;
 pub use bootstrap::bootstrap_median;
 pub use effect::vargha_delaney_a;
 pub use holm::holm;
-pub use wilcoxon::{SignedRanks, Wilcoxon, wilcoxon, wilcoxon_normal};
+pub use wilcoxon::{SignedRanks, Wilcoxon, rank_balance, wilcoxon, wilcoxon_normal};
 pub use wilson::wilson_interval;
+
+/// Every value once, in the order in which they come.
+pub(crate) fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<T> {
+    let mut known = Vec::new();
+    for value in values {
+        if !known.contains(&value) {
+            known.push(value);
+        }
+    }
+    known
+}
 
 /// The quantile `p` in 0 to 1 of values in any order, by linear interpolation between order
 /// statistics (Hyndman & Fan 1996, type 7); none of nothing.

@@ -72,6 +72,12 @@ pub fn wilcoxon_normal(differences: &[f64]) -> Option<Wilcoxon> {
     })
 }
 
+/// The sum of the positive ranks minus that of the negative ones: to which side the differences
+/// lean.
+pub fn rank_balance(differences: &[f64]) -> f64 {
+    Ranked::new(differences).map_or(0.0, |ranked| ranked.positive - ranked.negative)
+}
+
 /// Differences other than 0, ranked by size.
 struct Ranked {
     /// Ranks in ascending order, equal differences sharing theirs.

@@ -36,18 +36,18 @@ pub(super) fn spreads(runs: &[Run]) -> Section {
     let mut blocks = Vec::new();
     for metric in metrics(&TIMES) {
         let of = |run: &Run| metric.of(run);
-        blocks.extend(spread(runs, (metric.name, AxisScale::Log), of));
+        blocks.extend(spread(runs, metric.name, AxisScale::Log, of));
     }
     for metric in metrics(&EXTENTS) {
         let least = least(runs, metric);
         let of = |run: &Run| Some(metric.of(run)? / least.get(&run.place())?);
         let words = metric.name.trim_end_matches(" m");
         let quantity = format!("{words} over the least of its scenario");
-        blocks.extend(spread(runs, (&quantity, AxisScale::Linear), of));
+        blocks.extend(spread(runs, &quantity, AxisScale::Linear, of));
     }
     for metric in metrics(&PLAIN) {
         let of = |run: &Run| metric.of(run);
-        blocks.extend(spread(runs, (metric.name, AxisScale::Linear), of));
+        blocks.extend(spread(runs, metric.name, AxisScale::Linear, of));
     }
     Section {
         heading: "How values are spread".to_owned(),
@@ -58,7 +58,8 @@ pub(super) fn spreads(runs: &[Run]) -> Section {
 /// A box for each planner that has values; nothing where none has.
 fn spread(
     runs: &[Run],
-    (quantity, scale): (&str, AxisScale),
+    quantity: &str,
+    scale: AxisScale,
     of: impl Fn(&Run) -> Option<f64>,
 ) -> Option<Block> {
     let group = |name: &&str| BoxGroup {
@@ -207,10 +208,12 @@ mod tests {
 
     fn run(planner: &str, seed: u64, is_solved: bool) -> Run {
         let mut run = Run::default();
-        run.record.fill(&json!({
-            "scenario": "s", "planner": planner, "seed": seed, "length_m": 10.0,
-            "status": if is_solved { "found" } else { "no_path" }, "valid": is_solved,
-        }));
+        run.record
+            .fill(&json!({
+                "scenario": "s", "planner": planner, "seed": seed, "length_m": 10.0,
+                "status": if is_solved { "found" } else { "no_path" }, "valid": is_solved,
+            }))
+            .unwrap();
         if is_solved {
             let improvement = |at_s, length_m| Improvement {
                 at_s,

@@ -42,10 +42,9 @@ fn log(runs: &[Run], at: [&str; 3]) -> OmplLog {
     let first = here.first().copied().cloned().unwrap_or_default();
     let (record, origin) = (first.record, first.origin);
     let words: Vec<&str> = at.into_iter().filter(|word| !word.is_empty()).collect();
-    let property = |&(name, kind, _): &RunProperty| Property::new(name, kind);
+    let property = |&(name, kind, _): &RunProperty| Property { name, kind };
     let planner = |name: &str| OmplPlanner {
         name: name.to_owned(),
-        settings: Vec::new(),
         runs: here
             .iter()
             .filter(|run| run.record.planner == name)
@@ -70,7 +69,6 @@ fn log(runs: &[Run], at: [&str; 3]) -> OmplLog {
             .map(planner)
             .filter(|p| !p.runs.is_empty())
             .collect(),
-        ..OmplLog::default()
     }
 }
 
@@ -96,7 +94,7 @@ mod tests {
             run.record.fill(&json!({
                 "scenario": "s", "planner": planner, "seed": 0, "status": "found", "valid": true,
                 "length_m": length_m, "query_s": 0.5, "peak_rss_bytes": 3e7,
-            }));
+            })).unwrap();
             run.history.improvements = vec![Improvement {
                 at_s: 0.25,
                 steps: 7,

@@ -7,7 +7,7 @@ use crate::analysis::compare::{
     Duel, METHOD, METRICS, Metric, SUCCESS, Scope, describe_not_run, not_run, paired, planners,
     runs_of,
 };
-use crate::analysis::statistics::quartiles;
+use crate::analysis::statistics::{distinct, quartiles};
 use crate::report::{Field, Report, Section, Table};
 use crate::run::Run;
 use anyhow::Result;
@@ -132,13 +132,7 @@ fn of_scenarios(runs: &[Run]) -> Section {
 
 /// All places in the order in which they come.
 pub(super) fn places(runs: &[Run]) -> Vec<[&str; 3]> {
-    let mut places = Vec::new();
-    for run in runs {
-        if !places.contains(&run.place()) {
-            places.push(run.place());
-        }
-    }
-    places
+    distinct(runs.iter().map(Run::place))
 }
 
 /// All metrics but success.
@@ -170,11 +164,13 @@ mod tests {
 
     fn run(scenario: &str, planner: &str, seed: u64, length_m: Option<f64>) -> Run {
         let mut run = Run::default();
-        run.record.fill(&json!({
-            "scenario": scenario, "planner": planner, "seed": seed, "length_m": length_m,
-            "status": if length_m.is_some() { "found" } else { "no_path" },
-            "valid": length_m.map(|_| true),
-        }));
+        run.record
+            .fill(&json!({
+                "scenario": scenario, "planner": planner, "seed": seed, "length_m": length_m,
+                "status": if length_m.is_some() { "found" } else { "no_path" },
+                "valid": length_m.map(|_| true),
+            }))
+            .unwrap();
         run
     }
 
@@ -220,7 +216,7 @@ mod tests {
             run("s", "three", 0, None),
         ];
         let refused = json!({"status": "invalid_request", "reason": "the vehicle is a point"});
-        runs[1].record.fill(&refused);
+        runs[1].record.fill(&refused).unwrap();
         runs[3].record.status = RunStatus::Unavailable;
         let text = markdown(&report("c", &runs).unwrap());
         for part in [

@@ -2,7 +2,7 @@
 
 use crate::campaign::ConfigRecord;
 use crate::papers::parameters::Origins;
-use crate::report::{Block, Field, Section, Source, Table, leaves};
+use crate::report::{Block, Column, Field, Section, Source, Table, leaves};
 use crate::tuning::ranges;
 use formicar::numeric::counted;
 use formicar::planner::{PlannerConfig, PlannerName};
@@ -143,31 +143,22 @@ fn differences(sheets: &[Sheet]) -> Option<Block> {
     if sheets.is_empty() {
         return None;
     }
-    let heading = [
-        "configuration",
-        "parameter",
-        "value",
-        "preset",
-        "range",
-        "origin",
+    let lines = sheets.iter().flat_map(|sheet| &sheet.lines);
+    let changed = lines.filter_map(|(line, names)| Some((line, names, line.preset.as_deref()?)));
+    let columns: [Column<(&Line, &Vec<&str>, &str)>; 6] = [
+        ("configuration", &|(_, names, _)| {
+            Field::Words(names.join(", "))
+        }),
+        ("parameter", &|(line, ..)| {
+            Field::Words(format!("`{}`", line.key))
+        }),
+        ("value", &|(line, ..)| Field::words(&line.value)),
+        ("preset", &|(.., preset)| Field::words(preset)),
+        ("range", &|(line, ..)| Field::words(&line.range)),
+        ("origin", &|(line, ..)| Field::words(line.source.name())),
     ];
-    let mut table = Table::new("parameters changed", &heading)
+    let table = Table::of("parameters changed", changed, &columns)
         .captioned("What differs from the preset of the planner.");
-    for sheet in sheets {
-        for (line, names) in &sheet.lines {
-            let Some(preset) = &line.preset else {
-                continue;
-            };
-            table.row(vec![
-                Field::Words(names.join(", ")),
-                Field::Words(format!("`{}`", line.key)),
-                Field::words(&line.value),
-                Field::words(preset),
-                Field::words(&line.range),
-                Field::words(line.source.name()),
-            ]);
-        }
-    }
     Some(if table.rows.is_empty() {
         Block::Text("No configuration differs from the preset of its planner.".to_owned())
     } else {

@@ -1,7 +1,9 @@
 //! Verdicts on claims, from comparisons and counts.
 
 use super::{Claim, Claims, Comparison, Counted, Evidence, Expected};
-use crate::analysis::statistics::{bootstrap_median, holm, quantile, vargha_delaney_a, wilcoxon};
+use crate::analysis::statistics::{
+    bootstrap_median, holm, quantile, rank_balance, vargha_delaney_a, wilcoxon,
+};
 use crate::report::Verdict;
 use formicar::numeric::Seed;
 
@@ -148,26 +150,12 @@ fn vote_of_test(
     if p_holm.is_none_or(|p| p >= LEVEL) {
         return Vote::Open;
     }
-    let is_less = favors_less(differences);
+    let is_less = rank_balance(differences) < 0.0;
     if is_less == (expected == Expected::Less) {
         Vote::For
     } else {
         Vote::Against
     }
-}
-
-/// Tells if the sum of ranks of negative differences is the larger one.
-fn favors_less(differences: &[f64]) -> bool {
-    let mut sorted: Vec<f64> = differences.iter().copied().filter(|d| *d != 0.0).collect();
-    sorted.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-    let (mut balance, mut rank) = (0.0, 0.0);
-    for equal in sorted.chunk_by(|a, b| a.abs() == b.abs()) {
-        let n = equal.len() as f64;
-        let mean_rank = rank + 0.5 * (n + 1.0);
-        balance += mean_rank * equal.iter().map(|d| d.signum()).sum::<f64>();
-        rank += n;
-    }
-    balance < 0.0
 }
 
 /// For where the 95 % interval of the median difference, over the other's value, lies within the
@@ -261,7 +249,7 @@ mod tests {
     }
 
     fn verdict(comparisons: Vec<Comparison>) -> Verdict {
-        let claims = Claims(vec![Claim::paired("less", "", "-", comparisons)]);
+        let claims = Claims(vec![Claim::new("less", "", "-", comparisons)]);
         let judged = claims.judged();
         judged[0].verdict
     }
@@ -300,7 +288,7 @@ mod tests {
                 n,
                 of,
             };
-            Claims(vec![Claim::counted("all arrive", "", "-", vec![count])]).judged()[0].verdict
+            Claims(vec![Claim::new("all arrive", "", "-", vec![count])]).judged()[0].verdict
         };
         assert_eq!(verdict(31, 31), Verdict::Holds);
         assert_eq!(verdict(20, 31), Verdict::InPart);
@@ -311,8 +299,8 @@ mod tests {
     #[test]
     fn holm_counts_all_comparisons_of_the_page() {
         let claims = Claims(vec![
-            Claim::paired("one", "", "-", vec![less(1.0)]),
-            Claim::paired("two", "", "-", vec![less(1.0), noise()]),
+            Claim::new("one", "", "-", vec![less(1.0)]),
+            Claim::new("two", "", "-", vec![less(1.0), noise()]),
         ]);
         let judged = claims.judged();
         let test = &judged[0].tests[0];

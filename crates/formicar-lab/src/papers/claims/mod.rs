@@ -73,28 +73,43 @@ pub struct Claim {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Claims(pub Vec<Claim>);
 
+impl From<Vec<Comparison>> for Evidence {
+    fn from(comparisons: Vec<Comparison>) -> Self {
+        Self::Paired(comparisons)
+    }
+}
+
+impl From<Vec<Counted>> for Evidence {
+    fn from(counts: Vec<Counted>) -> Self {
+        Self::Counted(counts)
+    }
+}
+
 impl Claim {
-    /// A claim that comparisons test.
-    pub(crate) fn paired(
+    /// A claim, its place in the paper, the paper's numbers, and our evidence.
+    pub(crate) fn new(
         words: &str,
         place: &str,
         paper: &str,
-        comparisons: Vec<Comparison>,
+        evidence: impl Into<Evidence>,
     ) -> Self {
-        Self::new(words, place, paper, Evidence::Paired(comparisons))
-    }
-
-    /// A claim that counts test.
-    pub(crate) fn counted(words: &str, place: &str, paper: &str, counts: Vec<Counted>) -> Self {
-        Self::new(words, place, paper, Evidence::Counted(counts))
-    }
-
-    fn new(words: &str, place: &str, paper: &str, evidence: Evidence) -> Self {
         Self {
             words: words.to_owned(),
             place: place.to_owned(),
             paper: paper.to_owned(),
-            evidence,
+            evidence: evidence.into(),
         }
     }
 }
+
+/// The claims of a paper, a line each: the claim in a sentence, its place in the paper, the paper's
+/// numbers (a dash where it gives none), and our evidence.
+macro_rules! claims {
+    ($($words:literal | $place:literal | $paper:literal => $evidence:expr;)*) => {
+        $crate::papers::claims::Claims(vec![
+            $($crate::papers::claims::Claim::new($words, $place, $paper, $evidence)),*
+        ])
+    };
+}
+
+pub(crate) use claims;

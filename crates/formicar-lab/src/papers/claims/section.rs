@@ -2,7 +2,7 @@
 
 use super::judge::{Judged, Tested};
 use super::{Claims, Expected};
-use crate::report::{Block, Field, PairedPanel, PairedPlot, Section, Table};
+use crate::report::{Block, Column, Field, PairedPanel, PairedPlot, Section, Table};
 
 const RULE: &str = "Each claim is tested on our maps, method against method, seed by seed. A test \
      speaks for a claim where the signed-rank test of Wilcoxon (two-sided; exact up to 50 \
@@ -35,33 +35,23 @@ impl Claims {
 }
 
 fn verdicts(judged: &[Judged]) -> Table {
-    let mut table = Table::new(
-        "verdicts",
-        &[
-            "no.", "claim", "verdict", "paper", "ours", "for", "against", "open", "where",
-        ],
-    )
-    .captioned(
+    let tally = |judged: &Judged, i: usize| Field::count(judged.tally()[i]);
+    let columns: [Column<(usize, &Judged)>; 9] = [
+        ("no.", &|(i, _)| Field::Words(format!("{}", i + 1))),
+        ("claim", &|(_, judged)| Field::words(&judged.claim.words)),
+        ("verdict", &|(_, judged)| Field::Verdict(judged.verdict)),
+        ("paper", &|(_, judged)| Field::words(&judged.claim.paper)),
+        ("ours", &|(_, judged)| Field::Words(ours(judged))),
+        ("for", &|(_, judged)| tally(judged, 0)),
+        ("against", &|(_, judged)| tally(judged, 1)),
+        ("open", &|(_, judged)| tally(judged, 2)),
+        ("where", &|(_, judged)| Field::words(&judged.claim.place)),
+    ];
+    Table::of("verdicts", judged.iter().enumerate(), &columns).captioned(
         "The paper's claims. `ours` gives medians, the paper's method before the other, in the \
          order in which the tests of the claim are listed further below, or counts of runs; `for`, \
          `against` and `open` count tests.",
-    );
-    for (i, judged) in judged.iter().enumerate() {
-        let claim = judged.claim;
-        let [n_for, n_against, n_open] = judged.tally();
-        table.row(vec![
-            Field::Words(format!("{}", i + 1)),
-            Field::words(&claim.words),
-            Field::Verdict(judged.verdict),
-            Field::words(&claim.paper),
-            Field::Words(ours(judged)),
-            Field::Number(Some(n_for as f64), 0),
-            Field::Number(Some(n_against as f64), 0),
-            Field::Number(Some(n_open as f64), 0),
-            Field::words(&claim.place),
-        ]);
-    }
-    table
+    )
 }
 
 /// Medians of all comparisons, and counts.
@@ -81,56 +71,46 @@ fn ours(judged: &Judged) -> String {
 }
 
 fn tests(judged: &[Judged]) -> Table {
-    let mut table = Table::new(
-        "tests",
-        &[
-            "test",
-            "quantity",
-            "expected",
-            "pairs",
-            "first",
-            "other",
-            "difference",
-            "p",
-            "p, Holm",
-            "A",
-        ],
-    )
-    .captioned(
+    let numbered = (1..).zip(judged);
+    let tests = numbered.flat_map(|(claim, judged)| judged.tests.iter().map(move |t| (claim, t)));
+    let median = |test: &Tested, which: usize| {
+        let medians = test.medians.map(|medians| medians[which]);
+        Field::Number(medians, test.comparison.n_decimals)
+    };
+    let columns: [Column<(usize, &Tested)>; 10] = [
+        ("test", &|(claim, test)| {
+            Field::Words(format!("{claim}: {}", test.comparison.name))
+        }),
+        ("quantity", &|(_, test)| {
+            Field::words(&test.comparison.quantity)
+        }),
+        ("expected", &|(_, test)| expected(test.comparison.expected)),
+        ("pairs", &|(_, test)| {
+            Field::count(test.comparison.pairs.len())
+        }),
+        ("first", &|(_, test)| median(test, 0)),
+        ("other", &|(_, test)| median(test, 1)),
+        ("difference", &|(_, test)| {
+            Field::Spread(test.difference, test.comparison.n_decimals)
+        }),
+        ("p", &|(_, test)| Field::Probability(test.p)),
+        ("p, Holm", &|(_, test)| Field::Probability(test.p_holm)),
+        ("A", &|(_, test)| Field::Number(test.a, 2)),
+    ];
+    Table::of("tests", tests, &columns).captioned(
         "The tests, named by claim: medians of both, the median difference, first less other, with \
          its 95 % interval (percentile bootstrap of 2000 samples, seed 0), the probability of the \
          signed-rank test before and after Holm's correction, and Vargha and Delaney's A: how often \
          the first has the larger value.",
-    );
-    for (i, judged) in judged.iter().enumerate() {
-        for test in &judged.tests {
-            table.row(row(i, test));
-        }
-    }
-    table
+    )
 }
 
-fn row(claim: usize, test: &Tested) -> Vec<Field> {
-    let comparison = test.comparison;
-    let n = comparison.n_decimals;
-    let median = |which: usize| Field::Number(test.medians.map(|medians| medians[which]), n);
-    let expected = match comparison.expected {
+fn expected(expected: Expected) -> Field {
+    Field::Words(match expected {
         Expected::Less => "less".to_owned(),
         Expected::More => "more".to_owned(),
         Expected::Same(share) => format!("same to {:.0} %", 100.0 * share),
-    };
-    vec![
-        Field::Words(format!("{}: {}", claim + 1, comparison.name)),
-        Field::words(&comparison.quantity),
-        Field::Words(expected),
-        Field::Number(Some(comparison.pairs.len() as f64), 0),
-        median(0),
-        median(1),
-        Field::Spread(test.difference, n),
-        Field::Probability(test.p),
-        Field::Probability(test.p_holm),
-        Field::Number(test.a, 2),
-    ]
+    })
 }
 
 /// A picture per claim and quantity.
@@ -193,13 +173,13 @@ mod tests {
             of: 31,
         };
         let claims = Claims(vec![
-            Claim::paired(
+            Claim::new(
                 "shorter",
                 "sec. 5",
                 "1 : 2",
                 vec![comparison("a"), comparison("b")],
             ),
-            Claim::counted("arrives", "sec. 6", "-", vec![count]),
+            Claim::new("arrives", "sec. 6", "-", vec![count]),
         ]);
         let (verdicts, tests) = (claims.verdicts(), claims.tests());
         let Block::Table(verdicts) = &verdicts.blocks[0] else {

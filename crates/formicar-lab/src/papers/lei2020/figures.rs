@@ -1,7 +1,6 @@
 //! Figures 2 to 5 and 9 to 13.
 
-use super::variants::{CONVENTIONAL, IMPROVED, variants};
-use super::{COLONIES, MAPS, Map};
+use super::variants::{COLONIES, CONVENTIONAL, IMPROVED, MAPS, Map, variants};
 use crate::papers::drawn_run::{DrawnRun, Line, overlay, strips_of};
 use crate::papers::experiment::{Ground, Variant};
 use crate::papers::trial::{Moment, Trial};

@@ -6,47 +6,14 @@ mod tables;
 mod variants;
 
 use crate::papers::correspondence;
-use crate::papers::experiment::{Ground, Setup, Variant, run_all};
+use crate::papers::experiment::{Ground, Setup, Variant};
 use crate::papers::parameters;
 use crate::papers::reproduction::Reproduction;
-use crate::papers::trials::Runs;
+use crate::papers::trials::{Runs, run_all};
 use crate::report::{Block, BoxPlot, Report, Section};
 use anyhow::Result;
 use formicar::planner::PlannerName;
-use variants::{CONVENTIONAL, ELITE, IMPROVED, variants};
-
-/// A map with what the paper's Table 1 gives for one of the same size of its own: conventional,
-/// elite, improved; lengths in cells, times in seconds.
-struct Map {
-    name: &'static str,
-    figure: &'static str,
-    lengths: [f64; 3],
-    times_s: [f64; 3],
-}
-
-const MAPS: [Map; 3] = [
-    Map {
-        name: "lei-map1",
-        figure: "10",
-        lengths: [78.2, 50.5, 37.9],
-        times_s: [302.0, 269.0, 103.0],
-    },
-    Map {
-        name: "lei-map2",
-        figure: "12",
-        lengths: [157.3, 87.4, 58.9],
-        times_s: [2429.0, 1581.0, 964.0],
-    },
-    Map {
-        name: "lei-map3",
-        figure: "13",
-        lengths: [216.9, 133.7, 98.2],
-        times_s: [2653.0, 1835.0, 1207.0],
-    },
-];
-
-/// The three colonies of the paper's Table 1.
-const COLONIES: [&str; 3] = [CONVENTIONAL, ELITE, IMPROVED];
+use variants::{IMPROVED, MAPS, variants};
 
 /// Runs conventional, elitist and improved colonies, and the improved one less each of its parts.
 ///
@@ -78,10 +45,7 @@ fn report(grounds: &[Ground], runs: Runs) -> Result<Report> {
         sections.push(of_map(map.name, runs));
     }
     sections.push(claims.tests());
-    sections.push(parameters::section(
-        parameters::LEI2020,
-        &Variant::of(PlannerName::Lei2020),
-    )?);
+    sections.push(parameters::section(&Variant::of(PlannerName::Lei2020))?);
     sections.push(correspondence::section(PLACES));
     Ok(Report {
         name: "lei2020".to_owned(),

@@ -1,4 +1,4 @@
-//! The improved colony less each of its parts, and those that it is compared with.
+//! The maps, and the improved colony less each of its parts beside those that it is compared with.
 
 use crate::papers::experiment::{Ground, Variant};
 use formicar::colony::evaporation::{Constant, Evaporation};
@@ -17,6 +17,48 @@ pub(super) const OPEN: &str = "lei2020, U-shapes open";
 pub(super) const UNIFORM: &str = "lei2020, uniform pheromone";
 pub(super) const CONSTANT: &str = "lei2020, constant evaporation";
 pub(super) const FREE_TURNS: &str = "lei2020, turns cost nothing";
+
+/// A map with what the paper's Table 1 gives for one of the same size of its own: conventional,
+/// elite, improved; lengths in cells, times in seconds.
+pub(super) struct Map {
+    pub(super) name: &'static str,
+    pub(super) figure: &'static str,
+    pub(super) lengths: [f64; 3],
+    pub(super) times_s: [f64; 3],
+}
+
+pub(super) const MAPS: [Map; 3] = [
+    map("lei-map1", "10", [78.2, 50.5, 37.9], [302.0, 269.0, 103.0]),
+    map(
+        "lei-map2",
+        "12",
+        [157.3, 87.4, 58.9],
+        [2429.0, 1581.0, 964.0],
+    ),
+    map(
+        "lei-map3",
+        "13",
+        [216.9, 133.7, 98.2],
+        [2653.0, 1835.0, 1207.0],
+    ),
+];
+
+const fn map(
+    name: &'static str,
+    figure: &'static str,
+    lengths: [f64; 3],
+    times_s: [f64; 3],
+) -> Map {
+    Map {
+        name,
+        figure,
+        lengths,
+        times_s,
+    }
+}
+
+/// The three colonies of the paper's Table 1.
+pub(super) const COLONIES: [&str; 3] = [CONVENTIONAL, ELITE, IMPROVED];
 
 /// All variants, of the size that the paper uses on a map.
 pub(super) fn variants(ground: &Ground) -> Vec<Variant> {

@@ -1,13 +1,12 @@
 //! Each term of the proposed method switched off, with the same seeds.
 
-use super::claims::{COST, DRIVEN, STEP, TIME};
 use super::drive::Drive;
-use super::group::drives_of;
+use super::group::{ABLATION, COST, DRIVEN, STEP, TIME, drives_of};
 use super::methods::PROPOSED;
-use crate::papers::claims::{Claim, Claims, Expected};
+use crate::papers::claims::{Claim, Claims, Expected, Tested};
 use crate::papers::experiment::Variant;
-use crate::papers::group::{Column, Quantity, ratio, table_of};
-use crate::report::{Block, Field, Section, Table};
+use crate::papers::group::{GroupColumn, Quantity, ratio, table_of};
+use crate::report::{Block, Column, Field, Section, Table};
 use formicar::colony::chord::{
     ChordConfig, ChordTransition, CornerRule, CornerTerm, Depositor, DistanceTerm, Safety,
     SteeringLimit, StraightnessUse,
@@ -18,9 +17,6 @@ use formicar::colony::evaporation::{Constant, Evaporation, Generational, Recursi
 use formicar::colony::heuristic::Guidance;
 use formicar::planner::{AstarParameters, ChordParameters, PlannerName};
 use formicar::smoothing::{Corners, RedundantNodes};
-
-/// The part of the experiment.
-pub(super) const ABLATION: &str = "ablation";
 
 /// The method as it is, then with each of its terms off, and two that tell what ants and arcs
 /// bring apart.
@@ -114,7 +110,7 @@ fn outcomes(drives: &[Drive], variants: &[Variant]) -> Table {
         .map(|name| (name, drives_of(drives, ABLATION, name)))
         .collect();
     let first = groups.first().and_then(|(_, first)| first.median(TIME.of));
-    let columns: [Column<Drive>; 6] = [
+    let columns: [GroupColumn<Drive>; 6] = [
         ("certified", &|g, _| g.certified()),
         ("driven m", &|g, _| g.spread(DRIVEN.of, 2)),
         ("largest step deg", &|g, _| g.spread(STEP.of, 1)),
@@ -136,8 +132,6 @@ fn paired(drives: &[Drive], variants: &[Variant], key: &str, quantity: &Quantity
          often the variant has the larger value.",
         quantity.name
     );
-    let heading = ["variant", "pairs", "difference", "p", "p, Holm", "A"];
-    let mut table = Table::new(key, &heading).captioned(&caption);
     let group = |variant: &Variant| drives_of(drives, ABLATION, &variant.name);
     let (first, others) = variants
         .split_first()
@@ -147,23 +141,23 @@ fn paired(drives: &[Drive], variants: &[Variant], key: &str, quantity: &Quantity
         let name = variant.name.clone();
         group(variant).compare(&first, quantity, name, Expected::Less)
     };
-    let claims = Claims(vec![Claim::paired(
+    let claims = Claims(vec![Claim::new(
         "Each is less than the first",
         "",
         "-",
-        others.iter().map(compare).collect(),
+        others.iter().map(compare).collect::<Vec<_>>(),
     )]);
-    for test in &claims.judged()[0].tests {
-        table.row(vec![
-            Field::words(&test.comparison.name),
-            Field::Number(Some(test.comparison.pairs.len() as f64), 0),
-            Field::Spread(test.difference, quantity.n_decimals),
-            Field::Number(test.p, 4),
-            Field::Number(test.p_holm, 4),
-            Field::Number(test.a, 2),
-        ]);
-    }
-    table
+    let columns: [Column<&Tested>; 6] = [
+        ("variant", &|test| Field::words(&test.comparison.name)),
+        ("pairs", &|test| Field::count(test.comparison.pairs.len())),
+        ("difference", &|test| {
+            Field::Spread(test.difference, quantity.n_decimals)
+        }),
+        ("p", &|test| Field::Number(test.p, 4)),
+        ("p, Holm", &|test| Field::Number(test.p_holm, 4)),
+        ("A", &|test| Field::Number(test.a, 2)),
+    ];
+    Table::of(key, &claims.judged()[0].tests, &columns).captioned(&caption)
 }
 
 #[cfg(test)]

@@ -1,9 +1,8 @@
 //! The proposed method beside the best of the others, in one table.
 
 use super::drive::Drive;
-use super::group::drives_of;
+use super::group::{COMPARISON, drives_of};
 use super::methods::{Method, PROPOSED};
-use super::tables::COMPARISON;
 use crate::papers::group::ratio;
 use crate::report::{Field, Table};
 

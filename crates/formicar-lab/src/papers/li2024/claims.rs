@@ -1,11 +1,11 @@
 //! The claims of the paper about its method.
 
-use super::ablation::ABLATION;
 use super::drive::Drive;
-use super::group::{Drives, drives_of};
+use super::group::{
+    ABLATION, COMPARISON, COST, Drives, LARGE_TURNS, LENGTH, STEP, TIME, drives_of,
+};
 use super::methods::PROPOSED;
-use super::tables::COMPARISON;
-use crate::papers::claims::{Claim, Claims, Comparison, Counted, Expected};
+use crate::papers::claims::{Claims, Comparison, Counted, Expected, claims};
 use crate::papers::group::Quantity;
 
 /// The method with integer orders, and without the seed of A*.
@@ -13,37 +13,6 @@ const INTEGER: &str = "faco2024, integer order";
 const UNSEEDED: &str = "faco2024, no A* seed";
 /// Share of turns up to 5 degrees that the paper's conclusion names.
 const SMALL_TURNS: f64 = 0.99;
-
-pub(super) const TIME: Quantity<Drive> = Quantity {
-    name: "map set-up and query, ms",
-    n_decimals: 1,
-    of: |drive| Some(drive.total_ms),
-};
-pub(super) const LENGTH: Quantity<Drive> = Quantity {
-    name: "path before rounding, m",
-    n_decimals: 2,
-    of: |drive| drive.native_length_m,
-};
-pub(super) const DRIVEN: Quantity<Drive> = Quantity {
-    name: "certified curve, m",
-    n_decimals: 3,
-    of: |drive| drive.certified_length_m,
-};
-pub(super) const COST: Quantity<Drive> = Quantity {
-    name: "J",
-    n_decimals: 4,
-    of: |drive| drive.cost,
-};
-const LARGE_TURNS: Quantity<Drive> = Quantity {
-    name: "turns above 10 degrees, %",
-    n_decimals: 2,
-    of: |drive| Some(100.0 * drive.native_over_10_deg?),
-};
-pub(super) const STEP: Quantity<Drive> = Quantity {
-    name: "largest turn over 1 m, degrees",
-    n_decimals: 2,
-    of: |drive| drive.largest_step_deg,
-};
 
 /// The runs that claims are tested on.
 struct Evidence<'a> {
@@ -60,14 +29,57 @@ pub(super) fn claims(drives: &[Drive], methods: &[&str], ground: &str) -> Claims
         ground,
         methods,
     };
-    let claims = [
-        evidence.of_time(),
-        evidence.of_length(),
-        evidence.of_success(),
-        evidence.of_turns(),
-        evidence.of_search(),
-    ];
-    Claims(claims.concat())
+    let less = |others: &[&str], quantity| evidence.against(others, quantity, Expected::Less);
+    let without = |variant: &str, quantities: [&Quantity<Drive>; 2]| {
+        quantities
+            .map(|quantity| evidence.against_variant(variant, quantity))
+            .to_vec()
+    };
+    let others = ["astar", "improved-astar", "ga", "aga", "aco"];
+    claims! {
+        "Takes less time than A*, GA and ACO" | "Table 1, sec. 5.2"
+            | "63.74 : 857.26, 100.61 and 350.66 s: 92.56, 57.84 and 81.82 % less"
+            => less(&["astar", "ga", "aco"], &TIME);
+        "Takes less time than improved A*, AGA and ACOF" | "Table 1"
+            | "63.74 : 591.73, 123.67 and 153.71 s"
+            => less(&["improved-astar", "aga", "acof"], &TIME);
+        "Its path is shorter than those of improved A*, AGA and ACOF" | "Table 1, sec. 5.2"
+            | "92.98 : 93.57, 93.36 and 94.97 m: 0.63, 0.40 and 2.10 % less"
+            => less(&["improved-astar", "aga", "acof"], &LENGTH);
+        "GA's path is longer" | "Table 1" | "92.98 : 101.24 m" => less(&["ga"], &LENGTH);
+        "A* and ACO, which heed no constraints, find shorter paths" | "Table 1, sec. 5.2"
+            | "92.98 : 91.60 and 89.20 m"
+            => evidence.against(&["astar", "aco"], &LENGTH, Expected::More);
+        "It always succeeds" | "Table 1" | "100 %"
+            => evidence.counted(&[PROPOSED], "certified", |drive| drive.certified);
+        "So do all others but ACOF" | "Table 1" | "100 %"
+            => evidence.counted(&others, "certified", |drive| drive.certified);
+        "ACOF, smoothed afterwards, never succeeds" | "Table 1, sec. 5.2" | "0 %"
+            => evidence.counted(&["acof"], "not certified", |drive| !drive.certified);
+        "More than 99 % of its turns are up to 5 degrees" | "Table 2, sec. 5.2" | "99.4 %"
+            => evidence.counted(&[PROPOSED], "more than 99 %", is_smooth);
+        "It has fewer turns above 10 degrees than all others but ACOF" | "Table 2"
+            | "0 : 0.46, 0.93, 66.67, 100 and 66.67 %" => less(&others, &LARGE_TURNS);
+        "Its steps keep the steering limit while it searches" | "sec. 4, eq. 18"
+            | "-" => evidence.counted(&[PROPOSED], "within the limit", is_within_limit);
+        "It reaches the lowest cost J of the methods that search by generations"
+            | "sec. 5.2, fig. 12" | "-" => less(&["ga", "aga", "aco", "acof"], &COST);
+        "The fractional order leads to smoother paths than an integer order" | "sec. 4, 5.2, 6"
+            | "-" => without(INTEGER, [&STEP, &COST]);
+        "Pheromone on the path of A* helps the search" | "sec. 4, 5.2"
+            | "-" => without(UNSEEDED, [&COST, &TIME]);
+    }
+}
+
+fn is_smooth(drive: &Drive) -> bool {
+    drive
+        .native_to_5_deg
+        .is_some_and(|share| share > SMALL_TURNS)
+}
+
+fn is_within_limit(drive: &Drive) -> bool {
+    let ratio = drive.largest_steering_ratio;
+    ratio.is_some_and(|ratio| ratio <= 1.0 + 1e-9)
 }
 
 impl Evidence<'_> {
@@ -108,137 +120,6 @@ impl Evidence<'_> {
     fn counted(&self, methods: &[&str], what: &str, is: impl Fn(&Drive) -> bool) -> Vec<Counted> {
         let count = |name: &str| self.group(name).counted(format!("{name}, {what}"), &is);
         self.ran(methods).map(count).collect()
-    }
-
-    fn of_time(&self) -> Vec<Claim> {
-        let less = |others: &[&str]| self.against(others, &TIME, Expected::Less);
-        vec![
-            Claim::paired(
-                "Takes less time than A*, GA and ACO",
-                "Table 1, sec. 5.2",
-                "63.74 : 857.26, 100.61 and 350.66 s: 92.56, 57.84 and 81.82 % less",
-                less(&["astar", "ga", "aco"]),
-            ),
-            Claim::paired(
-                "Takes less time than improved A*, AGA and ACOF",
-                "Table 1",
-                "63.74 : 591.73, 123.67 and 153.71 s",
-                less(&["improved-astar", "aga", "acof"]),
-            ),
-        ]
-    }
-
-    fn of_length(&self) -> Vec<Claim> {
-        vec![
-            Claim::paired(
-                "Its path is shorter than those of improved A*, AGA and ACOF",
-                "Table 1, sec. 5.2",
-                "92.98 : 93.57, 93.36 and 94.97 m: 0.63, 0.40 and 2.10 % less",
-                self.against(&["improved-astar", "aga", "acof"], &LENGTH, Expected::Less),
-            ),
-            Claim::paired(
-                "GA's path is longer",
-                "Table 1",
-                "92.98 : 101.24 m",
-                self.against(&["ga"], &LENGTH, Expected::Less),
-            ),
-            Claim::paired(
-                "A* and ACO, which heed no constraints, find shorter paths",
-                "Table 1, sec. 5.2",
-                "92.98 : 91.60 and 89.20 m",
-                self.against(&["astar", "aco"], &LENGTH, Expected::More),
-            ),
-        ]
-    }
-
-    fn of_success(&self) -> Vec<Claim> {
-        let certified = |drive: &Drive| drive.certified;
-        vec![
-            Claim::counted(
-                "It always succeeds",
-                "Table 1",
-                "100 %",
-                self.counted(&[PROPOSED], "certified", certified),
-            ),
-            Claim::counted(
-                "So do all others but ACOF",
-                "Table 1",
-                "100 %",
-                self.counted(
-                    &["astar", "improved-astar", "ga", "aga", "aco"],
-                    "certified",
-                    certified,
-                ),
-            ),
-            Claim::counted(
-                "ACOF, smoothed afterwards, never succeeds",
-                "Table 1, sec. 5.2",
-                "0 %",
-                self.counted(&["acof"], "not certified", |drive| !drive.certified),
-            ),
-        ]
-    }
-
-    fn of_turns(&self) -> Vec<Claim> {
-        let is_smooth = |drive: &Drive| drive.native_to_5_deg.is_some_and(|s| s > SMALL_TURNS);
-        let within = |drive: &Drive| {
-            drive
-                .largest_steering_ratio
-                .is_some_and(|r| r <= 1.0 + 1e-9)
-        };
-        vec![
-            Claim::counted(
-                "More than 99 % of its turns are up to 5 degrees",
-                "Table 2, sec. 5.2",
-                "99.4 %",
-                self.counted(&[PROPOSED], "more than 99 %", is_smooth),
-            ),
-            Claim::paired(
-                "It has fewer turns above 10 degrees than all others but ACOF",
-                "Table 2",
-                "0 : 0.46, 0.93, 66.67, 100 and 66.67 %",
-                self.against(
-                    &["astar", "improved-astar", "ga", "aga", "aco"],
-                    &LARGE_TURNS,
-                    Expected::Less,
-                ),
-            ),
-            Claim::counted(
-                "Its steps keep the steering limit while it searches",
-                "sec. 4, eq. 18",
-                "-",
-                self.counted(&[PROPOSED], "within the limit", within),
-            ),
-        ]
-    }
-
-    fn of_search(&self) -> Vec<Claim> {
-        vec![
-            Claim::paired(
-                "It reaches the lowest cost J of the methods that search by generations",
-                "sec. 5.2, fig. 12",
-                "-",
-                self.against(&["ga", "aga", "aco", "acof"], &COST, Expected::Less),
-            ),
-            Claim::paired(
-                "The fractional order leads to smoother paths than an integer order",
-                "sec. 4, 5.2, 6",
-                "-",
-                vec![
-                    self.against_variant(INTEGER, &STEP),
-                    self.against_variant(INTEGER, &COST),
-                ],
-            ),
-            Claim::paired(
-                "Pheromone on the path of A* helps the search",
-                "sec. 4, 5.2",
-                "-",
-                vec![
-                    self.against_variant(UNSEEDED, &COST),
-                    self.against_variant(UNSEEDED, &TIME),
-                ],
-            ),
-        ]
     }
 }
 

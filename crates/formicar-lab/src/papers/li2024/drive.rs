@@ -3,18 +3,16 @@
 use super::methods::Native;
 use super::native;
 use super::turns::Turns;
+use crate::papers::drawn_run::DrawnRun;
 use crate::papers::experiment::{Ground, Variant};
 use crate::run::measure;
 use anyhow::Result;
 use formicar::geometry::Point2;
-use formicar::map::BitGrid;
 use formicar::metrics::SteeringShare;
 use formicar::numeric::Seed;
 use formicar::objective::{SteeredLine, SteeringCost};
-use formicar::path::CurvePath;
-use formicar::planner::{Outcome, Planner};
+use formicar::planner::Outcome;
 use formicar::scenario::StartHeading;
-use formicar::validation::Report;
 use formicar::vehicle::SuspensionParameters;
 use serde::Serialize;
 
@@ -77,38 +75,30 @@ pub(super) struct Drive {
     pub(super) largest_steering_ratio: Option<f64>,
 }
 
-/// The parts of a run that are drawn.
-#[derive(Clone, Debug)]
-pub(super) struct DrawnRun {
-    pub(super) method: String,
-    pub(super) certified: bool,
+/// A run that is drawn, with its path before it was made drivable.
+pub(super) struct Drawn {
+    pub(super) run: DrawnRun,
     pub(super) native: Vec<Point2>,
-    pub(super) judged: Option<(CurvePath, Report)>,
-    /// Cells that no ant could enter.
-    pub(super) blocked: Option<BitGrid>,
 }
 
 impl Job<'_> {
     /// Runs with a seed: map set-up, query and judge.
-    pub(super) fn run(&self, seed: u64) -> Result<(Drive, DrawnRun)> {
-        let (ground, config) = (self.ground, self.variant.config.clone());
-        let setup = measure(&mut (), |_| {
-            Planner::new(&ground.grid, ground.vehicle.clone(), config)
-        });
+    pub(super) fn run(&self, seed: u64) -> Result<(Drive, Outcome)> {
+        let ground = self.ground;
+        let setup = measure(&mut (), |_| ground.planner(&self.variant.config));
         let mut planner = setup.answer?;
         let query = measure(&mut (), |observer| {
             planner.plan(&ground.request, Seed(seed), observer)
         });
         let first_s = query.first_feasible_s();
         let outcome = query.answer?;
-        let drawn = self.drawn(&outcome);
         let mut drive = Drive {
             part: self.part.to_owned(),
             method: self.variant.name.clone(),
             ground: ground.map.clone(),
             seed,
             status: outcome.status().name().to_owned(),
-            certified: drawn.certified,
+            certified: matches!(outcome, Outcome::Found(_)),
             shortest_m: self.shortest_m,
             total_ms: 1e3 * (setup.query_s + query.query_s),
             map_setup_ms: 1e3 * setup.query_s,
@@ -116,7 +106,7 @@ impl Job<'_> {
             first_feasible_ms: first_s.map(|first_s| 1e3 * (setup.query_s + first_s)),
             ..Drive::default()
         };
-        self.measure_native(&mut drive, &drawn.native)?;
+        self.measure_native(&mut drive, &self.native(&outcome))?;
         let pruned = native::nodes(ground, outcome.stages());
         drive.n_pruned_vertices = (!pruned.is_empty()).then_some(pruned.len());
         [
@@ -125,22 +115,21 @@ impl Job<'_> {
             drive.pruned_over_10_deg,
         ] = shares(Turns::of_polyline(&pruned));
         measure_curve(&mut drive, &outcome);
-        Ok((drive, drawn))
+        Ok((drive, outcome))
     }
 
-    fn drawn(&self, outcome: &Outcome) -> DrawnRun {
-        DrawnRun {
-            method: self.variant.name.clone(),
-            certified: matches!(outcome, Outcome::Found(_)),
-            native: native::polyline(self.native, self.ground, outcome),
-            blocked: outcome
-                .stages()
-                .layers
-                .as_ref()
-                .map(|layers| layers.blocked.clone()),
-            judged: outcome
-                .judged()
-                .map(|(path, report)| (path.clone(), report.clone())),
+    fn native(&self, outcome: &Outcome) -> Vec<Point2> {
+        native::polyline(self.native, self.ground, outcome)
+    }
+
+    /// A run to be drawn.
+    pub(super) fn drawn(&self, outcome: Outcome) -> Drawn {
+        Drawn {
+            native: self.native(&outcome),
+            run: DrawnRun {
+                variant: self.variant.name.clone(),
+                outcome,
+            },
         }
     }
 

@@ -1,6 +1,6 @@
 //! Paths on the map (Li 2024, figures 5 to 11).
 
-use super::drive::DrawnRun;
+use super::drive::Drawn;
 use crate::papers::experiment::Ground;
 use crate::report::Figure;
 use formicar::geometry::{Point2, Pose2};
@@ -16,12 +16,14 @@ const APART_M: f64 = 1.0;
 const MARGIN_M: f64 = 6.0;
 
 /// The part of the map that holds the paths of all methods.
-pub(super) fn surroundings(ground: &Ground, drawn_runs: &[DrawnRun]) -> (Point2, Point2) {
+pub(super) fn surroundings(ground: &Ground, drawn_runs: &[Drawn]) -> (Point2, Point2) {
     let ends = [ground.request.start, ground.request.goal].map(Pose2::position);
     let natives = drawn_runs
         .iter()
         .flat_map(|drawn| drawn.native.iter().copied());
-    let judged = drawn_runs.iter().filter_map(|drawn| drawn.judged.as_ref());
+    let judged = drawn_runs
+        .iter()
+        .filter_map(|drawn| drawn.run.outcome.judged());
     let curves = judged.flat_map(|(path, _)| path.sample(1.0));
     let curves = curves.map(|sample| sample.pose.position());
     let points = ends.into_iter().chain(natives).chain(curves);
@@ -35,13 +37,11 @@ pub(super) fn surroundings(ground: &Ground, drawn_runs: &[DrawnRun]) -> (Point2,
 
 /// A method's path in a part of the map: the polyline before corners are rounded, the curve that
 /// was judged, and the places where the judge refused it.
-pub(super) fn path_figure(ground: &Ground, drawn: &DrawnRun, part: (Point2, Point2)) -> Figure {
+pub(super) fn path_figure(ground: &Ground, drawn: &Drawn, part: (Point2, Point2)) -> Figure {
     let mut scene = Scene::window(&ground.grid, part.0, part.1);
-    let places = drawn
-        .judged
-        .as_ref()
-        .map_or(Vec::new(), |(_, report)| refused_at(report));
-    if let Some((path, _)) = &drawn.judged {
+    let judged = drawn.run.outcome.judged();
+    let places = judged.map_or(Vec::new(), |(_, report)| refused_at(report));
+    if let Some((path, _)) = judged {
         scene.curve(path);
     }
     if !drawn.native.is_empty() {
@@ -54,19 +54,22 @@ pub(super) fn path_figure(ground: &Ground, drawn: &DrawnRun, part: (Point2, Poin
     }
     let verdict = verdict(drawn, places.len());
     let picture = Picture {
-        title: drawn.method.clone(),
+        title: drawn.run.variant.clone(),
         caption: verdict.clone(),
         scene: Some(scene),
         ..Picture::default()
     };
-    let caption = format!("`{}` on `{}`, seed 0: {verdict}.", drawn.method, ground.map);
+    let caption = format!(
+        "`{}` on `{}`, seed 0: {verdict}.",
+        drawn.run.variant, ground.map
+    );
     Figure::new(&caption, &picture)
 }
 
-fn verdict(drawn: &DrawnRun, n_places: usize) -> String {
-    match &drawn.judged {
+fn verdict(drawn: &Drawn, n_places: usize) -> String {
+    match drawn.run.outcome.judged() {
         None => "no path".to_owned(),
-        Some((path, report)) if drawn.certified => format!(
+        Some((path, report)) if report.valid => format!(
             "certified, {:.2} m, clearance {:.3} m",
             path.length_m(),
             report.min_clearance_m

@@ -1,6 +1,6 @@
 //! Mean and lowest cost J by generation (Li 2024, figure 12).
 
-use super::drive::{DrawnRun, Job};
+use super::drive::{Drawn, Job};
 use super::methods::Generations;
 use crate::analysis::statistics::quartiles;
 use crate::papers::trial::diagonal_rule;
@@ -9,11 +9,10 @@ use anyhow::Result;
 use formicar::geometry::Point2;
 use formicar::map::{BitGrid, DiagonalRule};
 use formicar::numeric::Seed;
-use formicar::planner::Planner;
-use formicar::progress::{AntWays, Event, IterationRecord, Observer};
+use formicar::progress::{AntWays, Event, IterationRecord, Observer, StdClock};
 use formicar::render::AxisScale;
 use formicar::smoothing::RedundantNodes;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Costs of the runs of a method by generation; a run that stopped keeps its last values.
 #[derive(Clone, Debug)]
@@ -47,10 +46,11 @@ enum Source<'a> {
 pub(super) fn watch(
     job: Job,
     kind: Generations,
-    drawn: &DrawnRun,
+    drawn: &Drawn,
     n_seeds: u64,
 ) -> Result<Option<CostHistory>> {
-    let source = match (kind, &drawn.blocked) {
+    let layers = drawn.run.outcome.stages().layers.as_ref();
+    let source = match (kind, layers.map(|layers| &layers.blocked)) {
         (Generations::Record, _) => Source::Record,
         (Generations::Ways, Some(blocked)) => Source::Ways {
             job,
@@ -61,15 +61,14 @@ pub(super) fn watch(
     };
     let (mut runs, mut progress) = (Vec::new(), Vec::new());
     for seed in 0..n_seeds {
-        let config = job.variant.config.clone();
-        let begun = Instant::now();
-        let mut planner = Planner::new(&job.ground.grid, job.ground.vehicle.clone(), config)?;
+        let clock = StdClock::start();
+        let mut planner = job.ground.planner(&job.variant.config)?;
         let mut watcher = Watcher {
             source: &source,
             generations: Vec::new(),
             progress: Vec::new(),
             n_tried: 0,
-            begun,
+            clock,
             watched: Duration::ZERO,
         };
         planner.plan(&job.ground.request, Seed(seed), &mut watcher)?;
@@ -88,18 +87,18 @@ struct Watcher<'a> {
     generations: Vec<Generation>,
     progress: Vec<Progress>,
     n_tried: u64,
-    begun: Instant,
+    clock: StdClock,
     /// Time spent in the observer itself.
     watched: Duration,
 }
 
 impl Observer for Watcher<'_> {
     fn on_event(&mut self, event: &Event) {
-        let after = self.begun.elapsed().saturating_sub(self.watched);
+        let after = self.clock.now().saturating_sub(self.watched);
         if let Some((record, costs)) = self.source.costs(event) {
             self.note(record, costs, after);
         }
-        self.watched = self.begun.elapsed().saturating_sub(after);
+        self.watched = self.clock.now().saturating_sub(after);
     }
 }
 

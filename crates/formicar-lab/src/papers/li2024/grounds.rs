@@ -3,11 +3,10 @@
 use crate::papers::experiment::{Ground, Setup};
 use anyhow::{Context, Result};
 use formicar::collision::ObstacleMap;
-use formicar::map::builtin::BuiltinMap;
 use formicar::map::format::{ReadOptions, read_car_scenarios, read_map};
 use formicar::map::{DiagonalRule, MoveMasks};
 use formicar::progress::Limits;
-use formicar::scenario::{GoalHeading, Request};
+use formicar::scenario::{GoalHeading, Request, StartHeading};
 use formicar::search::GoalField;
 use formicar::vehicle::Vehicle;
 use std::path::PathBuf;
@@ -21,16 +20,13 @@ const HOOD: [&str; 2] = ["car", "hood_800x500.json"];
 
 /// The built-in neighborhood.
 pub(super) fn neighborhood() -> Result<Ground> {
-    let builtin = BuiltinMap::by_name(MAP)?;
-    let ends = &builtin.requests[0];
+    let ground = Ground::builtin(MAP)?;
     Ok(Ground {
-        map: MAP.to_owned(),
-        grid: builtin.grid(),
-        vehicle: Vehicle::preset(builtin.vehicle)?,
         request: Request {
-            goal_heading: GoalHeading::Any,
-            ..Request::new(ends.start, ends.goal)
+            start_heading: StartHeading::Exact,
+            ..ground.request
         },
+        ..ground
     })
 }
 

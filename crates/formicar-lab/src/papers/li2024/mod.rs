@@ -22,16 +22,14 @@ use crate::papers::parameters;
 use crate::papers::reproduction::{Reproduction, at_a_time, configs_of, csv, facts_of, seeds};
 use crate::report::{Block, Fact, Report, Section};
 use crate::run::pool;
-use ablation::ABLATION;
 use anyhow::Result;
-use drive::{DrawnRun, Drive, Job};
+use drive::{Drawn, Drive, Job};
+use formicar::planner::Outcome;
 use generations::CostHistory;
 use grounds::{hood, neighborhood, shortest_m};
+use group::{ABLATION, COMPARISON, HOOD};
 use methods::{Method, Native, methods};
-use tables::{COMPARISON, Comparison, over_scenarios};
-
-/// The part of the experiment on the scenarios of the data set.
-const HOOD: &str = "hood";
+use tables::{Comparison, over_scenarios};
 
 /// Compares all methods on the built-in neighborhood and, where the data set is present, on its
 /// ten scenarios; switches each term of FACO off; and lets its map grow.
@@ -66,7 +64,7 @@ struct Plan {
 #[derive(Default)]
 struct Findings {
     drives: Vec<Drive>,
-    drawn_runs: Vec<DrawnRun>,
+    drawn_runs: Vec<Drawn>,
     cost_histories: Vec<CostHistory>,
     /// Grounds of the scaling experiment.
     grown: Vec<Ground>,
@@ -81,8 +79,9 @@ impl Plan {
                 let variant = Variant::of(method.planner);
                 let job = job(HOOD, ground, shortest_m(ground), &variant, method.native);
                 report_progress(&format!("{}: {}", ground.map, variant.name));
-                let runs = self.runs(&job, self.scale.n_runs)?;
-                findings.drives.extend(runs.into_iter().map(|run| run.0));
+                findings
+                    .drives
+                    .extend(self.runs(&job, self.scale.n_runs)?.0);
             }
         }
         self.switch_terms_off(&mut findings, report_progress)?;
@@ -94,9 +93,15 @@ impl Plan {
         self.conclude(&findings)
     }
 
-    /// Runs of a job with the seeds from 0 on.
-    fn runs(&self, job: &Job, n_seeds: u64) -> Result<Vec<(Drive, DrawnRun)>> {
-        pool::map(self.n_jobs, n_seeds as usize, |seed| job.run(seed as u64))
+    /// Runs of a job with the seeds from 0 on, and the outcome of the first.
+    fn runs(&self, job: &Job, n_seeds: u64) -> Result<(Vec<Drive>, Option<Outcome>)> {
+        let run = |seed: usize| -> Result<_> {
+            let (drive, outcome) = job.run(seed as u64)?;
+            Ok((drive, (seed == 0).then_some(outcome)))
+        };
+        let runs = pool::map(self.n_jobs, n_seeds as usize, run)?;
+        let (drives, outcomes): (_, Vec<_>) = runs.into_iter().unzip();
+        Ok((drives, outcomes.into_iter().flatten().next()))
     }
 
     /// All methods on the built-in neighborhood: timed, then watched by generation.
@@ -110,12 +115,9 @@ impl Plan {
             let variant = Variant::of(method.planner);
             let job = job(COMPARISON, ground, shortest_m, &variant, method.native);
             report_progress(&format!("{}: {}", self.ground.map, variant.name));
-            let mut first = None;
-            for (drive, drawn) in self.runs(&job, self.scale.n_seeds)? {
-                findings.drives.push(drive);
-                first.get_or_insert(drawn);
-            }
-            let Some(drawn) = first else {
+            let (drives, first) = self.runs(&job, self.scale.n_seeds)?;
+            findings.drives.extend(drives);
+            let Some(drawn) = first.map(|outcome| job.drawn(outcome)) else {
                 continue;
             };
             report_progress(&format!(
@@ -138,8 +140,9 @@ impl Plan {
         for variant in &self.ablation {
             report_progress(&format!("{}: {}", self.ground.map, variant.name));
             let job = job(ABLATION, ground, shortest_m, variant, Native::Nodes);
-            let runs = self.runs(&job, self.scale.n_seeds)?;
-            findings.drives.extend(runs.into_iter().map(|run| run.0));
+            findings
+                .drives
+                .extend(self.runs(&job, self.scale.n_seeds)?.0);
         }
         Ok(())
     }
@@ -212,7 +215,7 @@ impl Plan {
         sections.push(claims.tests());
         if let Some(subject) = scaling::subject(&self.methods) {
             let own = Variant::of(subject.planner);
-            sections.push(parameters::section(parameters::LI2024, &own)?);
+            sections.push(parameters::section(&own)?);
         }
         sections.push(correspondence::section(PLACES));
         Ok(Report {

@@ -1,10 +1,8 @@
 //! All methods in one picture.
 
-use super::claims::{DRIVEN, LENGTH, STEP, TIME};
-use super::drive::{DrawnRun, Drive};
-use super::group::drives_of;
+use super::drive::{Drawn, Drive};
+use super::group::{COMPARISON, DRIVEN, LENGTH, STEP, TIME, drives_of};
 use super::methods::PROPOSED;
-use super::tables::COMPARISON;
 use crate::papers::drawn_run::strips_of;
 use crate::papers::experiment::Ground;
 use crate::papers::group::Quantity;
@@ -14,7 +12,7 @@ use formicar::render::AxisScale;
 
 /// The whole map, then all paths in the part that holds them, then what the proposed method's path
 /// is like along its length.
-pub(super) fn map(ground: &Ground, drawn_runs: &[DrawnRun], part: (Point2, Point2)) -> Section {
+pub(super) fn map(ground: &Ground, drawn_runs: &[Drawn], part: (Point2, Point2)) -> Section {
     let frame = ground.grid.frame();
     let overlay = |caption: String, window, paths| Overlay {
         caption,
@@ -31,8 +29,8 @@ pub(super) fn map(ground: &Ground, drawn_runs: &[DrawnRun], part: (Point2, Point
         frame.n_rows(),
         frame.resolution_m()
     );
-    let path = |drawn: &DrawnRun| OverlayPath {
-        name: drawn.method.clone(),
+    let path = |drawn: &Drawn| OverlayPath {
+        name: drawn.run.variant.clone(),
         points: drawn.native.clone(),
     };
     let paths = drawn_runs.iter().filter(|drawn| !drawn.native.is_empty());
@@ -42,9 +40,11 @@ pub(super) fn map(ground: &Ground, drawn_runs: &[DrawnRun], part: (Point2, Point
         paths.map(path).collect(),
     );
     let whole = overlay(caption, None, Vec::new());
-    let own = drawn_runs.iter().find(|drawn| drawn.method == PROPOSED);
+    let own = drawn_runs
+        .iter()
+        .find(|drawn| drawn.run.variant == PROPOSED);
     let along = own.and_then(|drawn| {
-        let (path, report) = drawn.judged.as_ref()?;
+        let (path, report) = drawn.run.outcome.judged()?;
         Some(strips_of(ground, PROPOSED, path, report))
     });
     let figures = [whole.figure(), all.figure()].into_iter().chain(along);

@@ -2,19 +2,16 @@
 
 use super::drive::{Drive, Job};
 use super::grounds::shortest_m;
-use super::group::drives_of;
+use super::group::{Drives, SCALING, TIME, drives_of};
 use super::methods::{Method, PROPOSED};
 use crate::papers::experiment::{Ground, Scale, Variant};
 use crate::papers::group::ratio;
-use crate::report::{Field, Table};
+use crate::report::{Column, Field, Table};
 use anyhow::Result;
 use formicar::map::generate::{NeighborhoodParameters, alley_neighborhood, free_pose_pairs};
 use formicar::numeric::Seed;
 use formicar::scenario::{GoalHeading, Request};
 use formicar::vehicle::Vehicle;
-
-/// The part of the experiment.
-pub(super) const SCALING: &str = "scaling";
 
 /// Columns and rows, from a quarter of the paper's map to twenty-five times as many cells.
 const SIZES: [[usize; 2]; 4] = [[400, 250], [800, 500], [1600, 1000], [4000, 2500]];
@@ -96,36 +93,36 @@ pub(super) fn table(drives: &[Drive], method: &str) -> Table {
          across the whole map: medians with quartiles of map set-up and query, and the median per \
          cell of the map over that of the smallest map."
     );
-    let heading = [
-        "cells",
-        "certified",
-        "shortest m",
-        "time ms",
-        "per cell ns",
-        "per cell / smallest",
-    ];
-    let mut table = Table::new(SCALING, &heading).captioned(&caption);
-    let mut smallest = None;
-    for size in SIZES {
-        let name = name(size);
+    let of_size = |size: &[usize; 2]| {
         let group = drives_of(drives, SCALING, method);
-        let group = group.filter(|drive| drive.ground.starts_with(&name));
-        if group.len() == 0 {
-            continue;
-        }
+        (
+            *size,
+            group.filter(|drive| drive.ground.starts_with(&name(*size))),
+        )
+    };
+    let groups = SIZES
+        .iter()
+        .map(of_size)
+        .filter(|(_, group)| group.len() > 0);
+    let groups: Vec<_> = groups.collect();
+    let per_cell_ns = |(size, group): &([usize; 2], Drives)| {
         let n_cells = (size[0] * size[1]) as f64;
-        let per_cell_ns = group.median(|drive| Some(1e6 * drive.total_ms / n_cells));
-        smallest = smallest.or(per_cell_ns);
-        table.row(vec![
-            Field::Words(name),
-            group.certified(),
-            group.number(|drive| drive.shortest_m, 1),
-            group.spread(|drive| Some(drive.total_ms), 1),
-            Field::Number(per_cell_ns, 1),
-            Field::Number(ratio(per_cell_ns, smallest), 2),
-        ]);
-    }
-    table
+        group.median(|drive| Some(1e6 * drive.total_ms / n_cells))
+    };
+    let smallest = groups.iter().find_map(per_cell_ns);
+    let columns: [Column<&([usize; 2], Drives)>; 6] = [
+        ("cells", &|(size, _)| Field::Words(name(*size))),
+        ("certified", &|(_, group)| group.certified()),
+        ("shortest m", &|(_, group)| {
+            group.number(|drive| drive.shortest_m, 1)
+        }),
+        ("time ms", &|(_, group)| group.spread(TIME.of, 1)),
+        ("per cell ns", &|at| Field::Number(per_cell_ns(at), 1)),
+        ("per cell / smallest", &|at| {
+            Field::Number(ratio(per_cell_ns(at), smallest), 2)
+        }),
+    ];
+    Table::of(SCALING, &groups, &columns).captioned(&caption)
 }
 
 /// The method whose growth is measured, if this build knows it.

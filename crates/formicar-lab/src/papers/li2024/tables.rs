@@ -1,14 +1,11 @@
 //! The paper's two tables beside ours.
 
 use super::drive::Drive;
-use super::group::{Drives, drives_of};
+use super::group::{COMPARISON, Drives, drives_of};
 use super::methods::{Method, Native, PROPOSED, YARDSTICK};
 use super::paper::stated;
-use crate::papers::group::{Column, ratio, table_of};
+use crate::papers::group::{GroupColumn, ratio, table_of};
 use crate::report::{Field, Table};
-
-/// The part of the experiment in which methods are compared.
-pub(super) const COMPARISON: &str = "comparison";
 
 /// All runs of a comparison on one ground.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +34,7 @@ impl<'a> Comparison<'a> {
         let path = |drive: &Drive| drive.native_length_m;
         let proposed = self.group(PROPOSED).median(path);
         let stated_m = |name: &str| stated(name).map(|row| row.length_m);
-        let columns: [Column<Drive>; 8] = [
+        let columns: [GroupColumn<Drive>; 8] = [
             ("certified", &|g, _| g.certified()),
             ("paper's success %", &|_, name| {
                 Field::Number(stated(name).map(|row| row.success_percent), 0)
@@ -69,7 +66,7 @@ impl<'a> Comparison<'a> {
         let [yardstick, proposed] = [YARDSTICK, PROPOSED].map(|name| self.group(name).median(time));
         let paper_s = |name: &str| stated(name).map(|row| row.time_s);
         let over = |value: Option<f64>, to: Option<f64>, n| Field::Number(ratio(value, to), n);
-        let columns: [Column<Drive>; 8] = [
+        let columns: [GroupColumn<Drive>; 8] = [
             ("time ms", &|g, _| g.spread(time, 1)),
             ("first path ms", &|g, _| {
                 g.spread(|drive| drive.first_feasible_ms, 1)
@@ -171,7 +168,7 @@ impl<'a> Comparison<'a> {
                        jumps, changes of gear, the largest turn over a step of 1 m, the least \
                        clearance of the body; and the cost J of the path before corners are \
                        rounded (equation 15, lower is better).";
-        let columns: [Column<Drive>; 5] = [
+        let columns: [GroupColumn<Drive>; 5] = [
             ("curvature jumps", &|g, _| {
                 g.spread(|d| Some(d.n_curvature_jumps? as f64), 0)
             }),
@@ -226,7 +223,7 @@ pub(super) fn over_scenarios(drives: &[Drive], methods: &[Method], part: &str) -
     let yardstick = drives_of(drives, part, YARDSTICK).median(time);
     let names = methods.iter().map(|method| method.planner.name());
     let groups = names.map(|name| (name, drives_of(drives, part, name)));
-    let columns: [Column<Drive>; 7] = [
+    let columns: [GroupColumn<Drive>; 7] = [
         ("certified", &|g, _| g.certified()),
         ("path / shortest", &|g, _| {
             g.spread(|d| ratio(d.native_length_m, d.shortest_m), 3)

@@ -87,7 +87,7 @@ struct Answer {
 /// Drives a request of a ground, with a new path after every change; ends where there is none.
 pub(super) fn drive(ground: &Ground, method: &Method, seed: u64) -> Result<Vec<Step>> {
     let config = method.variant.config.clone();
-    let mut planner = Planner::new(&ground.grid, ground.vehicle.clone(), config.clone())?;
+    let mut planner = ground.planner(&config)?;
     let outcome = planner.plan(&ground.request, Seed(seed), &mut ())?;
     let Outcome::Found(first) = outcome else {
         return Ok(Vec::new());

@@ -1,8 +1,9 @@
 //! Tables of the drives.
 
 use super::drive::Step;
+use crate::analysis::statistics::distinct;
 use crate::analysis::statistics::quantile;
-use crate::papers::group::{Column, Group, distinct, table_of};
+use crate::papers::group::{Group, GroupColumn, table_of};
 use crate::report::{Field, Report, Section, Table};
 
 /// The tables: all maps together, and each map.
@@ -41,7 +42,7 @@ fn table(key: &str, steps: &[Step], belongs: impl Fn(&Step) -> bool) -> Table {
     let flips = |g: &Group<Step>| g.count(|step| step.flip == Some(true));
     let needless = |g: &Group<Step>| g.count(|s| s.flip == Some(true) && s.still_free);
     let cost = |step: &Step| Some(step.cost_m? / step.anew_cost_m?);
-    let columns: [Column<Step>; 10] = [
+    let columns: [GroupColumn<Step>; 10] = [
         ("found", &|g, _| Field::Count(found(g), g.len())),
         ("flips", &|g, _| Field::Rate(flips(g), found(g))),
         ("needless", &|g, _| Field::Rate(needless(g), free(g))),

@@ -1,6 +1,7 @@
 //! The quantities that grow, and their grounds.
 
 use crate::papers::experiment::{Ground, Scale, Variant};
+use crate::words::named;
 use anyhow::{Context, Result};
 use formicar::map::generate::{ScatterParameters, free_pose_pairs, scattered_obstacles};
 use formicar::numeric::Seed;
@@ -23,14 +24,16 @@ const SEED: Seed = Seed(21);
 /// Search steps after which a query gives up.
 const BUDGET_STEPS: u64 = 50_000_000;
 
-/// A quantity that grows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Quantity {
-    Cells,
-    Density,
-    VehicleSize,
-    Ants,
-    Threads,
+named! {
+    /// A quantity that grows.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub(super) enum Quantity {
+        Cells = "cells",
+        Density = "density",
+        VehicleSize = "vehicle",
+        Ants = "ants",
+        Threads = "threads",
+    }
 }
 
 /// One value of it: ground, planner and threads.
@@ -42,25 +45,6 @@ pub(super) struct Point {
 }
 
 impl Quantity {
-    pub(super) const ALL: [Self; 5] = [
-        Self::Cells,
-        Self::Density,
-        Self::VehicleSize,
-        Self::Ants,
-        Self::Threads,
-    ];
-
-    /// A word for it.
-    pub(super) fn key(self) -> &'static str {
-        match self {
-            Self::Cells => "cells",
-            Self::Density => "density",
-            Self::VehicleSize => "vehicle",
-            Self::Ants => "ants",
-            Self::Threads => "threads",
-        }
-    }
-
     /// The meaning of its numbers.
     pub(super) fn about(self) -> &'static str {
         match self {

@@ -5,9 +5,10 @@ mod axes;
 mod fit;
 mod sample;
 
+use crate::analysis::statistics::distinct;
 use crate::analysis::statistics::quartiles;
 use crate::papers::experiment::{Ground, Setup, Variant};
-use crate::papers::group::distinct;
+
 use crate::papers::reproduction::{Reproduction, configs_of, csv, facts_of, seeds};
 use crate::report::{Block, Fact, Field, Report, Section, Table, Trend, TrendPanel, Trends};
 use anyhow::Result;
@@ -40,7 +41,12 @@ pub fn scaling(setup: &Setup, report_progress: &mut dyn FnMut(&str)) -> Result<R
     for quantity in Quantity::ALL {
         for point in quantity.points(setup.scale)? {
             for variant in &point.variants {
-                report_progress(&format!("{} {}: {}", quantity.key(), point.x, variant.name));
+                report_progress(&format!(
+                    "{} {}: {}",
+                    quantity.name(),
+                    point.x,
+                    variant.name
+                ));
                 for seed in 0..n_seeds {
                     let sample = Sample::run(quantity, &point, variant, seed, setup.scale)?;
                     samples.push(sample);
@@ -81,7 +87,7 @@ const INTRO: &str = "Square fields of scattered obstacles, cells of 0.2 m, the v
 
 /// A table of fits and a picture of each cost, for a quantity.
 fn section(quantity: Quantity, samples: &[Sample]) -> Section {
-    let of_it = samples.iter().filter(|s| s.quantity == quantity.key());
+    let of_it = samples.iter().filter(|s| s.quantity == quantity.name());
     let of_it: Vec<&Sample> = of_it.collect();
     let planners = distinct(of_it.iter().map(|sample| sample.planner.as_str()));
     let mut blocks = vec![Block::Table(table(quantity, &of_it, &planners))];
@@ -109,7 +115,7 @@ fn table(quantity: Quantity, samples: &[&Sample], planners: &[&str]) -> Table {
         "largest",
         "query ms there",
     ];
-    let mut table = Table::new(quantity.key(), &heading).captioned(&caption);
+    let mut table = Table::new(quantity.name(), &heading).captioned(&caption);
     for planner in planners {
         let of_planner = samples.iter().filter(|s| s.planner == *planner);
         let n_solved = of_planner.clone().filter(|s| s.is_solved).count();

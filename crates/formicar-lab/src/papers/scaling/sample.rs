@@ -6,7 +6,7 @@ use crate::papers::experiment::{Scale, Variant};
 use crate::run::measure;
 use anyhow::Result;
 use formicar::numeric::Seed;
-use formicar::planner::{Outcome, Planner};
+use formicar::planner::Outcome;
 use serde::Serialize;
 
 /// The result of a query; times are medians over its repetitions.
@@ -34,10 +34,8 @@ impl Sample {
         seed: u64,
         scale: Scale,
     ) -> Result<Self> {
-        let (ground, config) = (&point.ground, variant.config.clone());
-        let setup = measure(&mut (), |_| {
-            Planner::new(&ground.grid, ground.vehicle.clone(), config)
-        });
+        let ground = &point.ground;
+        let setup = measure(&mut (), |_| ground.planner(&variant.config));
         let mut planner = setup.answer?.with_threads(point.n_threads);
         let mut outcome = planner.plan(&ground.request, Seed(seed), &mut ())?;
         let mut times_ms = Vec::new();
@@ -50,19 +48,15 @@ impl Sample {
             times_ms.push(1e3 * query.query_s);
         }
         let [_, query_ms, _] = quartiles(&times_ms).unwrap_or_default();
-        let (is_solved, steps) = match &outcome {
-            Outcome::Found(plan) => (true, plan.n_steps),
-            Outcome::NotFound(failure) => (false, failure.n_steps),
-        };
         Ok(Self {
-            quantity: quantity.key(),
+            quantity: quantity.name(),
             x: point.x,
             planner: variant.name.clone(),
             seed,
-            is_solved,
+            is_solved: matches!(outcome, Outcome::Found(_)),
             setup_ms: 1e3 * setup.query_s,
             query_ms,
-            steps,
+            steps: outcome.n_steps(),
         })
     }
 }

@@ -3,31 +3,20 @@
 mod adjacency;
 mod claims;
 mod steps;
+mod variants;
 
 use crate::papers::correspondence;
 use crate::papers::drawn_run::{DrawnRun, Line, overlay};
-use crate::papers::experiment::{Ground, Setup, Variant, run_all};
-use crate::papers::group::{Column, Group, table_of};
+use crate::papers::experiment::{Ground, Setup, Variant};
+use crate::papers::group::{Group, GroupColumn, table_of};
 use crate::papers::parameters;
 use crate::papers::reproduction::Reproduction;
 use crate::papers::trial::Trial;
-use crate::papers::trials::Runs;
+use crate::papers::trials::{Runs, run_all};
 use crate::report::{Block, Field, Report, Section, Table};
 use anyhow::Result;
-use formicar::colony::heuristic::{Guidance, StepLength, Visibility};
-use formicar::layers::Expansion;
-use formicar::map::DiagonalRule;
-use formicar::planner::{ColonyParameters, PlannerName};
-
-/// The maps with the figure that each stands for: narrow aisles, none, and the matrix that
-/// circulates.
-const MAPS: [(&str, &str); 3] = [("wang-aisles", "6"), ("wang-open", "7"), ("aco20", "8")];
-
-/// The paper's colony and those of its references 7 and 11.
-const PROPOSED: &str = "wang2019";
-const ZHANG: &str = "zhang2016";
-const JOSHY: &str = "joshy2016";
-const COLONIES: [&str; 3] = [ZHANG, JOSHY, PROPOSED];
+use formicar::planner::PlannerName;
+use variants::{COLONIES, MAPS, PROPOSED, variants};
 
 /// Runs the colony and those it is compared with, and times both calculations of the adjacency.
 ///
@@ -48,10 +37,7 @@ pub fn wang2019(setup: &Setup, report_progress: &mut dyn FnMut(&str)) -> Result<
     sections.push(adjacency::section(&timings));
     sections.push(steps::section());
     sections.push(claims.tests());
-    sections.push(parameters::section(
-        parameters::WANG2019,
-        &Variant::of(PlannerName::Wang2019),
-    )?);
+    sections.push(parameters::section(&Variant::of(PlannerName::Wang2019))?);
     sections.push(correspondence::section(PLACES));
     let report = Report {
         name: "wang2019".to_owned(),
@@ -67,29 +53,6 @@ pub fn wang2019(setup: &Setup, report_progress: &mut dyn FnMut(&str)) -> Result<
         sections,
     };
     Reproduction::of_runs(report, &runs, &grounds, |_| variants(), setup)
-}
-
-fn variants() -> Vec<Variant> {
-    let changed = |planner: PlannerName, what: &str, change: fn(&mut ColonyParameters)| {
-        Variant::changed(planner, what, change)
-    };
-    vec![
-        Variant::of(PlannerName::Wang2019),
-        Variant::of(PlannerName::Zhang2016),
-        changed(PlannerName::Zhang2016, "obstacles grown by 1", |c| {
-            c.layers.expansion = Expansion::Cells(1);
-        }),
-        Variant::of(PlannerName::Joshy2016),
-        changed(PlannerName::Wang2019, "without goal guidance", |c| {
-            c.colony.guidance = Guidance::None;
-        }),
-        changed(PlannerName::Wang2019, "visibility to the letter", |c| {
-            c.colony.visibility = Visibility::StepLength(StepLength { beta: 7.0 });
-        }),
-        changed(PlannerName::Wang2019, "no corner cut", |c| {
-            c.colony.diagonal_rule = DiagonalRule::NoObstacles;
-        }),
-    ]
 }
 
 /// Paths, convergence and numbers on one map.
@@ -124,7 +87,7 @@ fn of_map(map: &str, figure: &str, ground: &Ground, runs: Runs) -> Result<Sectio
 
 fn table(map: &str, runs: Runs) -> Table {
     let n_squeezing = |g: &Group<Trial>| g.count(|t| t.n_squeezes.is_some_and(|n| n > 0)) as f64;
-    let columns: [Column<Trial>; 7] = [
+    let columns: [GroupColumn<Trial>; 7] = [
         ("arrived", &|g, _| {
             Field::Count(g.count(|trial| trial.arrived), g.len())
         }),

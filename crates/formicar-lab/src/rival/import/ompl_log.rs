@@ -1,7 +1,7 @@
 //! A benchmark log of OMPL (Moll, Sucan & Kavraki 2015, *Benchmarking motion planning
 //! algorithms*): rows of metrics for each run of each planner, without paths.
 
-use super::Imported;
+use super::imported::Imported;
 use anyhow::{Context, Result, anyhow, bail};
 use std::iter::{Enumerate, Peekable};
 use std::str::Lines;
@@ -238,11 +238,10 @@ mod tests {
         };
         let log = OmplLog {
             version: "0.1.0".to_owned(),
-            properties: kinds.map(|(name, kind)| Property::new(name, kind)).into(),
+            properties: kinds.map(|(name, kind)| Property { name, kind }).into(),
             planners: vec![OmplPlanner {
                 name: "hybrid-astar".to_owned(),
                 runs: vec![run(1.0, Some(6.0)), run(0.0, None)],
-                ..OmplPlanner::default()
             }],
             ..OmplLog::default()
         };

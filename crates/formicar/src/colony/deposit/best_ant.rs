@@ -1,6 +1,6 @@
 //! The best ant alone deposits (Stützle & Hoos 2000).
 
-use super::{Generation, Memory, Portion, along, from_ant};
+use super::portion::{Generation, Memory, Portion, along, from_ant};
 use crate::parameters::parameters;
 
 parameters! {

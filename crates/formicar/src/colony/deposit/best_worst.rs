@@ -1,6 +1,6 @@
 //! The best way so far gains, the worst so far loses (Wang 2019).
 
-use super::{Memory, Portion, along};
+use super::portion::{Memory, Portion, along};
 use crate::parameters::parameters;
 
 parameters! {

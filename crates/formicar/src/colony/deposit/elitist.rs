@@ -1,7 +1,6 @@
 //! The best so far deposits once more, for many (Dorigo, Maniezzo & Colorni 1996).
 
-use super::{Generation, Memory};
-use super::{Portion, all, along};
+use super::portion::{Generation, Memory, Portion, all, along};
 use crate::parameters::parameters;
 
 parameters! {

@@ -1,6 +1,6 @@
 //! The better ones among the ants that arrived deposit.
 
-use super::{Generation, Portion, from_ant};
+use super::portion::{Generation, Portion, from_ant};
 use crate::parameters::parameters;
 
 parameters! {

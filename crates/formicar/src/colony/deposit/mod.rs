@@ -5,6 +5,7 @@ mod best_ant;
 mod best_worst;
 mod elitist;
 mod fittest;
+mod portion;
 
 pub use all_ants::AllAnts;
 pub use best_ant::BestAnt;
@@ -12,9 +13,8 @@ pub use best_worst::BestWorst;
 pub use elitist::Elitist;
 pub use fittest::Fittest;
 
-use super::cost::CellCost;
-use super::{generation, memory};
 use crate::parameters::rules;
+use portion::{Generation, Memory, Portion, all};
 
 rules! {
     /// Who deposits pheromone after an iteration. F is the cost of a way.
@@ -31,13 +31,6 @@ rules! {
         BestWorst(BestWorst),
     }
 }
-
-type Generation = generation::Generation<CellCost>;
-type AntPath = generation::AntPath<CellCost>;
-type Memory = memory::Memory<CellCost>;
-
-/// The steps of a path, and what is added to the pheromone along it.
-pub(super) type Portion<'a> = (&'a [u8], f64);
 
 impl Deposit {
     fn q(&self) -> f64 {
@@ -78,32 +71,11 @@ impl Deposit {
     }
 }
 
-/// Q / F from every ant that arrived, in the ants' order.
-fn all(generation: &Generation, q: f64) -> Vec<Portion<'_>> {
-    let ants = generation.arrived();
-    ants.map(|ant| from_ant(generation, ant, q)).collect()
-}
-
-/// Q / F from an ant.
-fn from_ant(generation: &Generation, ant: usize, q: f64) -> Portion<'_> {
-    let cost = generation.cost(ant).cost;
-    (generation.steps_of(ant), share_of(q, cost))
-}
-
-/// `n` Q / F along a path that is remembered.
-fn along(path: Option<&AntPath>, n_q: f64) -> Option<Portion<'_>> {
-    path.map(|path| (&path.steps[..], share_of(n_q, path.cost.cost)))
-}
-
-/// Q / F; a path without steps costs as much as one of a single step.
-fn share_of(q: f64, cost: f64) -> f64 {
-    q / if cost > 0.0 { cost } else { 1.0 }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::colony::Stopping;
+    use crate::colony::cost::CellCost;
     use crate::objective::PathCost;
 
     fn generation() -> Generation {

@@ -1,6 +1,6 @@
 //! Guidance by what a step saves: the same at every distance from the goal.
 
-use super::{LogDesire, step_length};
+use super::desire::{LogDesire, step_length};
 use crate::parameters::parameters;
 
 parameters! {

@@ -1,6 +1,6 @@
 //! Visibility as nearness to the goal: eta = 1 / distance.
 
-use super::LogDesire;
+use super::desire::LogDesire;
 use crate::colony::ColonyProblem;
 use crate::parameters::parameters;
 

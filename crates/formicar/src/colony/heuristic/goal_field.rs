@@ -1,6 +1,6 @@
 //! Guidance by the length of the shortest way to the goal (Wang 2019).
 
-use super::LogDesire;
+use super::desire::LogDesire;
 use crate::parameters::parameters;
 
 parameters! {

@@ -4,6 +4,7 @@
 //! overflow nor vanish that way, and an ant compares the cells around it alone.
 
 mod advantage;
+mod desire;
 mod goal_distance;
 mod goal_field;
 mod step_length;
@@ -12,6 +13,11 @@ pub use advantage::Advantage;
 pub use goal_distance::GoalDistance;
 pub use goal_field::GoalFieldGuidance;
 pub use step_length::StepLength;
+
+#[cfg(test)]
+pub(super) use desire::step_length;
+
+pub(super) use desire::LogDesire;
 
 use super::ColonyProblem;
 use crate::parameters::rules;
@@ -72,23 +78,5 @@ impl Guidance {
             Self::GoalField(rule) => rule.add_to(desire, costs_to_go),
             Self::Advantage(rule) => rule.add_to(desire, costs_to_go),
         }
-    }
-}
-
-/// Logarithms of the factors by which an ant favors cells and steps.
-#[derive(Clone, Debug)]
-pub(super) struct LogDesire {
-    /// By number of the cell.
-    pub(super) cells: Vec<f64>,
-    /// By place in [`STEPS`](crate::map::STEPS).
-    pub(super) steps: [f64; 8],
-}
-
-/// Length of each of [`STEPS`](crate::map::STEPS) in cells.
-pub(super) fn step_length(step: usize) -> f64 {
-    if step.is_multiple_of(2) {
-        1.0
-    } else {
-        std::f64::consts::SQRT_2
     }
 }

@@ -1,6 +1,6 @@
 //! Visibility as the shortness of a step: eta = 1 / its length.
 
-use super::{LogDesire, step_length};
+use super::desire::{LogDesire, step_length};
 use crate::parameters::parameters;
 
 parameters! {

@@ -1,6 +1,6 @@
 //! Pheromone laid out along a shortest path.
 
-use super::PheromoneUnit;
+use super::unit::PheromoneUnit;
 use crate::parameters::parameters;
 
 parameters! {

@@ -1,6 +1,6 @@
 //! Pheromone that falls with the distance from the line between start and goal.
 
-use super::PheromoneUnit;
+use super::unit::PheromoneUnit;
 use crate::map::Cell;
 use crate::parameters::parameters;
 

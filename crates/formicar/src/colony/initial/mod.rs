@@ -3,14 +3,16 @@
 mod astar_seed;
 mod line_gradient;
 mod uniform;
+mod unit;
 
 pub use astar_seed::AstarSeed;
 pub use line_gradient::LineGradient;
 pub use uniform::Uniform;
+pub use unit::PheromoneUnit;
 
 use super::ColonyProblem;
 use crate::map::Cell;
-use crate::parameters::{Parameters, rules};
+use crate::parameters::rules;
 use crate::progress::{Limits, Status};
 use crate::search::{AstarWorkspace, SearchError, astar};
 
@@ -25,22 +27,6 @@ rules! {
         AstarSeed(AstarSeed),
     }
 }
-
-/// The unit of initial pheromone.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-pub enum PheromoneUnit {
-    /// One.
-    #[default]
-    Absolute,
-    /// The deposit of an iteration whose ants all take the straight path from start to goal without
-    /// obstacles, so that the first deposits do not swamp it.
-    Deposit,
-}
-
-impl Parameters for PheromoneUnit {}
 
 impl InitialPheromone {
     pub(super) fn unit(&self) -> PheromoneUnit {

@@ -1,6 +1,6 @@
 //! The same pheromone everywhere.
 
-use super::PheromoneUnit;
+use super::unit::PheromoneUnit;
 use crate::parameters::parameters;
 
 parameters! {

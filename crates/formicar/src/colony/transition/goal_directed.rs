@@ -1,6 +1,6 @@
 //! Steps towards the goal first (Lei & Zheng 2020).
 
-use super::class;
+use super::class::class;
 use crate::parameters::Parameters;
 
 /// Steps at no more than 90 degrees to the direction of the goal come first, the others only where

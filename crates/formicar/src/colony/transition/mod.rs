@@ -1,12 +1,12 @@
 //! Classes of steps: an ant chooses among those of the first class while there are any.
 
+mod class;
 mod goal_directed;
 mod oblique_first;
 
 pub use goal_directed::GoalDirected;
 pub use oblique_first::ObliqueFirst;
 
-use crate::map::STEPS;
 use crate::parameters::rules;
 
 rules! {
@@ -32,19 +32,6 @@ impl Transition {
             Self::ObliqueFirst(_) => ObliqueFirst::first_class(to_goal),
         }
     }
-}
-
-/// The scalar product of each of [`STEPS`] with a vector.
-fn progress(to_goal: (i64, i64)) -> [i64; 8] {
-    STEPS.map(|(dx, dy)| i64::from(dx) * to_goal.0 + i64::from(dy) * to_goal.1)
-}
-
-/// The steps that meet a condition on their place and their progress, a bit each.
-fn class(to_goal: (i64, i64), belongs: impl Fn(usize, i64) -> bool) -> u8 {
-    let progress = progress(to_goal);
-    (0..8)
-        .filter(|&step| belongs(step, progress[step]))
-        .fold(0, |class, step| class | 1 << step)
 }
 
 #[cfg(test)]

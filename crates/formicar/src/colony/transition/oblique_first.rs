@@ -1,6 +1,6 @@
 //! Oblique steps first (Joshy & Supriya 2016, as Wang 2019 describes them).
 
-use super::class;
+use super::class::class;
 use crate::parameters::Parameters;
 
 /// Diagonal steps at less than 90 degrees to the direction of the goal come first: "prefers to

@@ -1,6 +1,7 @@
 //! The list of built-in maps with their vehicles and requests.
 
-use super::{BuiltinKind, BuiltinMap, BuiltinRequest, Source, narrow, scenes};
+use super::entry::{BuiltinKind, BuiltinMap, BuiltinRequest, Source};
+use super::{narrow, scenes};
 use crate::geometry::Pose2;
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -1,11 +1,11 @@
-//! The narrow set: tight places of measures that users report, drawn in metres.
+//! The narrow set: tight places of measures that users report, drawn in meters.
 
 use crate::map::OccupancyGrid;
 use crate::map::sketch::{Rect, Sketch};
 
-/// Side of a cell, metres.
+/// Side of a cell, meters.
 const RESOLUTION_M: f64 = 0.05;
-/// A parked car along x: length and width, metres.
+/// A parked car along x: length and width, meters.
 const PARKED_CAR_M: [f64; 2] = [4.5, 1.8];
 
 /// Four aisles of 1.1 m between racks of 1.2 m, joined by cross aisles of 1.2 m at both ends; the

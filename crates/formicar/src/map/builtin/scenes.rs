@@ -1,4 +1,4 @@
-//! Places where robots and cars work, drawn in metres.
+//! Places where robots and cars work, drawn in meters.
 
 use crate::map::OccupancyGrid;
 use crate::map::generate::{self, NeighborhoodParameters};

@@ -1,8 +1,9 @@
 //! Every built-in map keeps its word.
 
+use super::entry::Source;
 use super::*;
 use crate::geometry::{ConvexPolygon, Point2};
-use crate::map::Cell;
+use crate::map::{Cell, OccupancyGrid};
 use crate::vehicle::Vehicle;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 

@@ -39,11 +39,11 @@ pub enum GenerateError {
         "the map is {width_m} x {height_m} m; at least {min_m} x {min_m} m are needed; hint: more cells or a coarser resolution"
     )]
     TooSmall {
-        /// Width, metres.
+        /// Width, meters.
         width_m: f64,
-        /// Height, metres.
+        /// Height, meters.
         height_m: f64,
-        /// Least width and height, metres.
+        /// Least width and height, meters.
         min_m: f64,
     },
     /// The frame is no map.

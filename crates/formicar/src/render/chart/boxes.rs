@@ -1,6 +1,7 @@
 //! Rows of boxes over an x axis: quartiles, whiskers and every value as a dot.
 
-use super::draw::Plot;
+use super::BoxRow;
+use super::plot::Plot;
 use crate::geometry::Point2;
 use crate::render::lettering::{Anchor, Lettering};
 use crate::render::markup::Element;
@@ -15,19 +16,6 @@ const BOX_FILL: Color = Color::rgb(0xdb, 0xe8, 0xf6);
 const FONT_ROOM: f64 = 1.15;
 const NAMES: Lettering = Lettering::new(12.5, palette::INK);
 const NO_VALUE: Lettering = Lettering::new(12.5, palette::MUTED);
-
-/// A row of a chart of boxes.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct BoxRow {
-    /// Its name, left of the axis.
-    pub name: String,
-    /// Lower quartile, median and upper quartile; `None` without values.
-    pub quartiles: Option<[f64; 3]>,
-    /// The ends of the whiskers.
-    pub whiskers: [f64; 2],
-    /// Every value, as a dot.
-    pub values: Vec<f64>,
-}
 
 /// Height of a plot area with so many rows.
 pub(super) fn height_px(n_rows: usize) -> f64 {

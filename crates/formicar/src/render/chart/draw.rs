@@ -1,14 +1,13 @@
 //! A chart on the page: its size, and its lines, ribbons, dots and limits.
 
-use super::scale::Scale;
+use super::plot::Plot;
 use super::{Chart, DotFill, Dots, Limit, Ribbon, Series, Side, boxes};
 use crate::geometry::Point2;
 use crate::render::legend::{Legend, Swatch};
 use crate::render::lettering::{Anchor, Lettering};
 use crate::render::markup::Element;
 use crate::render::palette;
-use crate::render::panel::LEFT_PX;
-use crate::render::style::Dash;
+use crate::render::style::{Dash, LEFT_PX};
 use crate::render::svg::{PathData, Svg};
 
 const RIGHT_AXIS_PX: f64 = 44.0;
@@ -18,16 +17,6 @@ const BELOW_WITH_NUMBERS_PX: f64 = 42.0;
 const USUAL_HEIGHT_PX: f64 = 100.0;
 
 const LIMITS: Lettering = Lettering::new(11.5, palette::LIMIT);
-
-/// The plot area of a chart on the page, with its axes.
-pub(super) struct Plot<'a> {
-    pub(super) chart: &'a Chart,
-    pub(super) corner: Point2,
-    pub(super) size: Point2,
-    pub(super) x: Scale,
-    pub(super) left: Scale,
-    pub(super) right: Scale,
-}
 
 impl Chart {
     /// Height on the page at a width, with headings, axes and legend.
@@ -45,7 +34,7 @@ impl Chart {
         let legend = self.legend();
         if !legend.is_empty() {
             let below = Point2::new(self.left_px(), self.height_without_legend_px());
-            legend.draw(svg, at + below, (self.plot_width_px(width_px), 0.0));
+            legend.draw(svg, at + below, self.plot_width_px(width_px), 0.0);
         }
     }
 
@@ -125,15 +114,6 @@ impl Plot<'_> {
             Side::Right => &self.right,
         };
         Point2::new(self.x_px(point.x), self.y_px(point.y, y))
-    }
-
-    /// A value of the x axis on the page.
-    pub(super) fn x_px(&self, value: f64) -> f64 {
-        self.corner.x + self.x.share(value) * self.size.x
-    }
-
-    pub(super) fn y_px(&self, value: f64, y: &Scale) -> f64 {
-        self.corner.y + (1.0 - y.share(value)) * self.size.y
     }
 
     fn draw_data(&self, svg: &mut Svg) {

@@ -1,7 +1,7 @@
 //! The frame of a chart: heading, bands, grid lines and numbers.
 
 use super::AxisScale;
-use super::draw::Plot;
+use super::plot::Plot;
 use crate::geometry::Point2;
 use crate::render::lettering::{Anchor, Lettering};
 use crate::render::markup::Element;

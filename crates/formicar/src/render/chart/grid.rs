@@ -83,7 +83,7 @@ impl ChartGrid {
         }
         let left = self.charts.first().map_or(0.0, Chart::left_px);
         let at = Point2::new(left, LEGEND_GAP_PX);
-        legend.draw(svg, at, (width_px - left, 0.0));
+        legend.draw(svg, at, width_px - left, 0.0);
         at.y + legend.height_px(width_px - left, 0.0)
     }
 }

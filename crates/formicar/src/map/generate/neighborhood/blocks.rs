@@ -2,7 +2,7 @@
 
 use super::{Axis, Rect, Side, Town};
 
-/// Least side of a block that can hold a yard, metres.
+/// Least side of a block that can hold a yard, meters.
 const MIN_YARD_BLOCK_M: f64 = 15.0;
 
 impl Town<'_> {
@@ -44,7 +44,7 @@ impl Town<'_> {
         }
     }
 
-    /// A way of `width` metres from a random side of a block to the yard inside.
+    /// A way of `width` meters from a random side of a block to the yard inside.
     fn across_one_side(&mut self, block: Rect, yard: Rect, width: f64) -> Rect {
         let axis = if self.random.unit() < 0.5 {
             Axis::X

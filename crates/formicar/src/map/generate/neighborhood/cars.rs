@@ -3,9 +3,9 @@
 use super::{Axis, Rect, Side, Town};
 use crate::map::{FREE, OCCUPIED};
 
-/// Room that a car parked along a street takes off its width, metres.
+/// Room that a car parked along a street takes off its width, meters.
 const PARKING_LANE_M: f64 = 2.0;
-/// Width that stays free beside parked cars, metres.
+/// Width that stays free beside parked cars, meters.
 const DRIVING_LANE_M: f64 = 3.0;
 impl Town<'_> {
     /// Cars along one side of each street, along both where it is wide enough.

@@ -9,7 +9,7 @@ use crate::map::sketch::{Rect, Sketch, frame_at_origin};
 use crate::map::{OCCUPIED, OccupancyGrid};
 use crate::numeric::{RandomStream, Seed};
 
-/// Least width and height of a neighborhood, metres.
+/// Least width and height of a neighborhood, meters.
 const MIN_SIDE_M: f64 = 20.0;
 
 /// A neighborhood: streets cut the ground into areas, alleys cut these into blocks of houses; some
@@ -125,7 +125,7 @@ impl Town<'_> {
         }
     }
 
-    /// Two parts of an area and the way of `width` metres between them.
+    /// Two parts of an area and the way of `width` meters between them.
     fn cut(&mut self, area: Rect, width: f64) -> [Rect; 3] {
         let share = self.random.range(0.36, 0.64);
         let axis = Axis::along(area);
