@@ -9,8 +9,9 @@ use crate::vehicle::Vehicle;
 
 /// The parts of the picture of a plan, or of a failure.
 ///
-/// [`Plan::picture`] and [`NotFound::picture`] fill them in; for other pictures, end a literal with
-/// `..PlanPicture::new(map, vehicle, start, goal)`.
+/// [`Plan::picture`](crate::planner::Plan::picture) and
+/// [`NotFound::picture`](crate::planner::NotFound::picture) fill them in; for other pictures, end a
+/// literal with `..PlanPicture::new(map, vehicle, start, goal)`.
 #[derive(Clone, Copy, Debug)]
 pub struct PlanPicture<'a> {
     /// The map.
