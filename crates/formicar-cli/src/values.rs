@@ -130,16 +130,30 @@ pub(crate) fn polygon(text: &str) -> Result<Vec<Point2>, String> {
     Ok(points)
 }
 
+/// A time above 0, in milliseconds: `5s`, `800ms`, or a bare number of milliseconds.
+pub(crate) fn milliseconds(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let (digits, ms_per_unit) = if let Some(digits) = text.strip_suffix("ms") {
+        (digits, 1.0)
+    } else if let Some(digits) = text.strip_suffix('s') {
+        (digits, 1e3)
+    } else {
+        (text, 1.0)
+    };
+    let value = number(digits).map_err(|e| format!("{e}; expected a time as 800ms or 5s"))?;
+    above_0(value * ms_per_unit)
+}
+
 /// A finite number above 0.
 pub(crate) fn positive(text: &str) -> Result<f64, String> {
     above_0(number(text)?)
 }
 
 fn above_0(value: f64) -> Result<f64, String> {
-    if value > 0.0 {
+    if value > 0.0 && value.is_finite() {
         Ok(value)
     } else {
-        Err("it must be above 0".to_owned())
+        Err("it must be above 0 and finite".to_owned())
     }
 }
 
@@ -209,6 +223,21 @@ mod tests {
             "0,0 1,1 2,nan",
         ] {
             assert!(polygon(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn reads_times_in_seconds_and_milliseconds() {
+        for (text, expected) in [
+            ("800", 800.0),
+            ("800ms", 800.0),
+            ("5s", 5e3),
+            ("0.5 s", 500.0),
+        ] {
+            assert_eq!(milliseconds(text), Ok(expected), "{text}");
+        }
+        for bad in ["", "s", "5 min", "-1s", "0ms", "inf", "1e308s"] {
+            assert!(milliseconds(bad).is_err(), "{bad}");
         }
     }
 

@@ -119,12 +119,15 @@ fn two_calm_lines_for_people() {
 #[test]
 fn writes_answer_poses_and_picture() {
     let room = Room::new();
-    assert_eq!(
-        room.plan(&["--out", "path.json", "--picture", "path.svg"])
-            .code,
-        0
-    );
-    assert_eq!(room.plan(&["--out", "path.csv"]).code, 0);
+    let files = [
+        "--out",
+        "path.json",
+        "--out",
+        "path.csv",
+        "--picture",
+        "path.svg",
+    ];
+    assert_eq!(room.plan(&files).code, 0);
     let answer: Value = serde_json::from_str(&room.read("path.json")).unwrap();
     let csv = room.read("path.csv");
     let n_poses = answer["path"]["poses"].as_array().unwrap().len();

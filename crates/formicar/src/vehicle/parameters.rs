@@ -26,12 +26,12 @@ parameters! {
         #[range(POSITIVE)]
         #[serde(alias = "track_width", skip_serializing_if = "Option::is_none")]
         pub track_width_m: Option<f64>,
-        /// From the front axle to the front end, meters.
-        #[range(0.0..1e6)]
+        /// From the front axle to the front end, meters; negative where the body ends behind it.
+        #[range(-1e6..1e6)]
         #[serde(alias = "front_overhang", skip_serializing_if = "Option::is_none")]
         pub front_overhang_m: Option<f64>,
-        /// From the rear axle to the rear end, meters.
-        #[range(0.0..1e6)]
+        /// From the rear axle to the rear end, meters; negative where the body begins ahead of it.
+        #[range(-1e6..1e6)]
         #[serde(alias = "rear_overhang", skip_serializing_if = "Option::is_none")]
         pub rear_overhang_m: Option<f64>,
         /// Width of the body, meters.

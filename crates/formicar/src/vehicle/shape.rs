@@ -214,6 +214,13 @@ fn body(p: &VehicleParameters) -> Result<ConvexPolygon, VehicleError> {
     let front =
         needed("wheelbase_m", p.wheelbase_m)? + needed("front_overhang_m", p.front_overhang_m)?;
     let rear = needed("rear_overhang_m", p.rear_overhang_m)?;
+    if front + rear <= 0.0 {
+        return Err(VehicleError::OutOfRange(OutOfRange {
+            key: "rear_overhang_m".to_owned(),
+            value: rear,
+            range: format!("above {}, so that the body has a length", -front),
+        }));
+    }
     let half_width = 0.5 * needed("width_m", p.width_m)?;
     Ok(ConvexPolygon::rectangle(
         Point2::new(-rear, -half_width),
@@ -341,6 +348,25 @@ mod tests {
                 "{bad}"
             );
         }
+    }
+
+    #[test]
+    fn the_rear_axle_may_be_anywhere() {
+        let with_rear = |rear_overhang_m| {
+            Vehicle::new(VehicleParameters {
+                wheelbase_m: Some(2.0),
+                front_overhang_m: Some(-0.5),
+                rear_overhang_m: Some(rear_overhang_m),
+                ..car()
+            })
+        };
+        let (low, high) = with_rear(-0.25).unwrap().footprint().bounds();
+        assert_eq!((low.x, high.x), (0.25, 1.5));
+        let error = with_rear(-1.5).unwrap_err().to_string();
+        assert!(
+            error.contains("rear_overhang_m") && error.contains("-1.5"),
+            "{error}"
+        );
     }
 
     #[test]

@@ -80,8 +80,8 @@ pub(crate) struct BenchArgs {
     #[arg(long, value_name = "STEPS")]
     pub(crate) budget: Option<u64>,
 
-    /// Time after which a run gives up, milliseconds.
-    #[arg(long, value_name = "MS", value_parser = values::positive, allow_hyphen_values = true)]
+    /// Time after which a run gives up, for instance 5s or 800ms; a bare number is milliseconds.
+    #[arg(long, value_name = "TIME", value_parser = values::milliseconds, allow_hyphen_values = true)]
     pub(crate) deadline: Option<f64>,
 
     /// One planner parameter, for instance hybrid_astar.weight=1.2; may be repeated.

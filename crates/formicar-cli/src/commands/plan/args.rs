@@ -84,17 +84,17 @@ pub(crate) struct PlanArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub(crate) threads: Option<u32>,
 
-    /// Time limit, milliseconds.
-    #[arg(long, value_name = "MS", value_parser = values::positive, allow_hyphen_values = true)]
+    /// Time limit, for instance 5s or 800ms; a bare number is milliseconds.
+    #[arg(long, value_name = "TIME", value_parser = values::milliseconds, allow_hyphen_values = true)]
     pub(crate) deadline: Option<f64>,
 
     /// Limit of search steps.
     #[arg(long, value_name = "STEPS", allow_hyphen_values = true)]
     pub(crate) budget: Option<u64>,
 
-    /// Write the answer (.json) or the poses of the path (.csv).
+    /// Write the answer (.json) or the poses of the path (.csv); may be repeated.
     #[arg(long, value_name = "F.json|F.csv", value_hint = ValueHint::FilePath, conflicts_with = "stdin")]
-    pub(crate) out: Option<PathBuf>,
+    pub(crate) out: Vec<PathBuf>,
 
     /// Write a picture.
     #[arg(long, value_name = "F.svg|F.png", value_hint = ValueHint::FilePath, conflicts_with = "stdin")]

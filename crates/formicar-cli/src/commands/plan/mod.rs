@@ -31,7 +31,7 @@ enum OutKind {
 
 /// The files to write.
 struct Targets {
-    out: Option<Target<OutKind>>,
+    out: Vec<Target<OutKind>>,
     picture: Option<Target<PictureKind>>,
     ants: Option<Target<AntsKind>>,
 }
@@ -77,8 +77,9 @@ pub(crate) fn run(args: &PlanArgs, out: &mut impl Write) -> Result<Ending, Failu
 impl Targets {
     fn of(args: &PlanArgs) -> Result<Self> {
         let out_kinds = [("json", OutKind::Answer), ("csv", OutKind::Poses)];
+        let out = args.out.iter().map(|path| Target::new(path, &out_kinds));
         Ok(Self {
-            out: Target::of(args.out.as_deref(), &out_kinds)?,
+            out: out.collect::<Result<_>>()?,
             picture: Target::of(args.picture.as_deref(), &picture::KINDS)?,
             ants: Target::of(args.ants.as_deref(), &ants::KINDS)?,
         })
@@ -126,7 +127,7 @@ fn via_record(args: &PlanArgs, via: &ViaPoint) -> ViaRecord {
 }
 
 fn write_files(session: &Session, answered: &Answered, targets: &Targets) -> Result<()> {
-    if let Some(target) = &targets.out {
+    for target in &targets.out {
         match (target.kind, &answered.answer.path) {
             (OutKind::Answer, _) => {
                 let mut json = serde_json::to_vec(&answered.answer)?;
