@@ -1,4 +1,5 @@
 //! `check`: the judge on a path of any origin.
+#![allow(clippy::doc_markdown, reason = "clap prints these words as they stand")]
 
 use crate::failure::{Ending, Failure};
 use crate::path_file::{self, PathFile, Source};

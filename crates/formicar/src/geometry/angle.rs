@@ -2,6 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
+/// The largest heading that documents state: a turn, rounded up. A larger one is in degrees.
+#[cfg(feature = "serde")]
+pub(crate) const MAX_STATED_HEADING_RAD: f64 = TAU + 1e-4;
+
 /// The same direction in `(-pi, pi]`.
 pub fn wrap_angle(angle_rad: f64) -> f64 {
     if -PI < angle_rad && angle_rad <= PI {

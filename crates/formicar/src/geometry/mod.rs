@@ -14,6 +14,8 @@ mod pose;
 pub mod reeds_shepp;
 mod turning_circles;
 
+#[cfg(feature = "serde")]
+pub(crate) use angle::MAX_STATED_HEADING_RAD;
 pub use angle::{angle_difference, wrap_angle, yaw_of_quaternion};
 pub use b_spline::BSpline;
 pub use biarc::flattest_biarc;

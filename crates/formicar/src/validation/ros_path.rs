@@ -88,7 +88,7 @@ impl ReadSamples {
             if stamped.pose.is_none() {
                 kind = "geometry_msgs/PoseArray";
             }
-            if !(x.abs().max(y.abs()) <= 1e9) {
+            if ![x, y].iter().all(|number| number.abs() <= 1e9) {
                 return Err(problem(format!(
                     "poses[{i}]: the position is ({x}, {y}); expected numbers between -1e9 and 1e9"
                 )));
@@ -147,19 +147,14 @@ fn message(text: &str) -> Result<Message, SamplesError> {
         return serde_json::from_str(text).map_err(|error| problem(error.to_string()));
     }
     // Three dashes stand behind every message.
-    let mut messages = Vec::new();
-    for (i, line) in text.lines().enumerate() {
-        if line.trim_end() == "---" || i == 0 {
-            messages.push(String::new());
-        }
+    let mut messages = vec![String::new()];
+    for line in text.lines() {
         if line.trim_end() == "---" {
-            continue;
-        }
-        let message = messages.last_mut();
-        message.into_iter().for_each(|message| {
+            messages.push(String::new());
+        } else if let Some(message) = messages.last_mut() {
             message.push_str(line);
             message.push('\n');
-        });
+        }
     }
     messages.retain(|message| !message.trim().is_empty());
     match &messages[..] {
@@ -223,6 +218,8 @@ mod tests {
             "{two}"
         );
         assert_eq!(read(&format!("---\n{ECHO}")).unwrap(), samples);
+        let none = read(&ECHO.replace("x: 1.0", "x: .nan")).unwrap_err();
+        assert!(none.contains("the position is (NaN"), "{none}");
     }
 
     #[test]

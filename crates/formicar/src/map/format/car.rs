@@ -2,7 +2,7 @@
 
 use super::files::{MAX_TEXT_BYTES, read_bytes, text};
 use super::{FormatError, FormatProblem, Place};
-use crate::geometry::Pose2;
+use crate::geometry::{MAX_STATED_HEADING_RAD, Pose2};
 use crate::vehicle::{Vehicle, VehicleParameters};
 use serde_json::{Map, Value};
 use std::path::{Path, PathBuf};
@@ -92,8 +92,7 @@ fn scenario(entry: Entry, folder: &Path) -> Result<CarScenario, FormatError> {
 /// Refuses headings beyond a turn, which are in degrees.
 fn check_headings(poses: [[f64; 3]; 2]) -> Result<(), FormatProblem> {
     for ([_, _, heading], thing) in poses.into_iter().zip(["start heading", "goal heading"]) {
-        // A turn, rounded up.
-        if heading.abs() > 6.2832 {
+        if heading.abs() > MAX_STATED_HEADING_RAD {
             let radians = heading.to_radians();
             let expected =
                 format!("in radians, within a turn; hint: {heading} degrees are {radians:.4}");

@@ -2,7 +2,7 @@
 
 use super::error::excerpt;
 use super::{FormatError, FormatProblem, Place};
-use crate::geometry::Pose2;
+use crate::geometry::{MAX_STATED_HEADING_RAD, Pose2};
 use crate::map::GridFrame;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -205,12 +205,9 @@ fn needed<T>(thing: &'static str, value: Option<T>) -> Result<T, FormatProblem> 
     value.ok_or(FormatProblem::Missing { thing, hint })
 }
 
-/// The largest yaw: a turn, rounded up.
-const MAX_YAW_RAD: f64 = 6.2832;
-
 fn origin(numbers: &[f64]) -> Result<Pose2, FormatProblem> {
     match *numbers {
-        [_, _, yaw] if yaw.abs() > MAX_YAW_RAD => Err(FormatProblem::bad_value(
+        [_, _, yaw] if yaw.abs() > MAX_STATED_HEADING_RAD => Err(FormatProblem::bad_value(
             "the origin's yaw",
             yaw,
             format!(

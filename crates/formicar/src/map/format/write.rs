@@ -6,8 +6,8 @@ use super::{
     FormatError, FormatProblem, RosMapDescription, RosMapMode, pgm, png_file, to_csv_matrix,
     to_movingai_map, to_text_matrix, write_atomically,
 };
+use crate::geometry::MAX_STATED_HEADING_RAD;
 use crate::map::{FREE, OCCUPIED, OccupancyGrid, UNKNOWN};
-use std::f64::consts::TAU;
 use std::path::Path;
 
 /// Writes a map in the format that the file's extension names.
@@ -94,7 +94,7 @@ impl RosMapDescription {
             resolution_m: grid.frame().resolution_m(),
             // Readers take a yaw beyond a turn for one in degrees.
             origin: match grid.frame().origin() {
-                origin if origin.heading.abs() > TAU => origin.wrapped(),
+                origin if origin.heading.abs() > MAX_STATED_HEADING_RAD => origin.wrapped(),
                 origin => origin,
             },
             negate: false,

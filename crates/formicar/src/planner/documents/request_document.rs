@@ -1,7 +1,7 @@
 //! A request as a JSON object: what `plan --stdin` reads and every answer repeats.
 
 use super::via_record::ViaRecord;
-use crate::geometry::Pose2;
+use crate::geometry::{MAX_STATED_HEADING_RAD, Pose2};
 use crate::scenario::ScenarioError;
 use crate::scenario::{CurvatureMode, GoalHeading, GoalTolerance, Request, StartHeading};
 use crate::vehicle::Gears;
@@ -119,11 +119,8 @@ impl RequestDocument {
     }
 }
 
-/// The largest heading of a request: a turn, rounded up.
-const MAX_HEADING_RAD: f64 = 6.2832;
-
 fn check_heading(what: &'static str, heading_rad: f64) -> Result<(), ScenarioError> {
-    if heading_rad.is_finite() && heading_rad.abs() > MAX_HEADING_RAD {
+    if heading_rad.is_finite() && heading_rad.abs() > MAX_STATED_HEADING_RAD {
         return Err(ScenarioError::BeyondATurn { what, heading_rad });
     }
     Ok(())
@@ -180,6 +177,7 @@ mod tests {
     use super::*;
     use crate::geometry::Point2;
     use crate::scenario::{CurvatureRate, ViaPoint};
+    use std::f64::consts::TAU;
 
     #[test]
     fn a_request_survives_the_wire() {
@@ -235,7 +233,7 @@ mod tests {
 
     #[test]
     fn refuses_headings_in_degrees() {
-        let request = Request::new(Pose2::new(1.0, 2.0, 6.28), Pose2::new(3.0, 4.0, -6.28));
+        let request = Request::new(Pose2::new(1.0, 2.0, TAU), Pose2::new(3.0, 4.0, -TAU));
         let refused = |line: &str| {
             let line: RequestDocument = serde_json::from_str(line).unwrap();
             let merged = line.onto(&RequestDocument::from(&request));
