@@ -1,9 +1,17 @@
 /** The line to the server: kept up, opened again when it breaks. */
 
-import type { ClientMessage, ServerMessage } from "./protocol";
+import type { AnswerMessage, ClientMessage, ServerMessage } from "./protocol";
 
 /** A message with the payload behind it, empty for text messages. */
 export type Received = (message: ServerMessage, payload: Uint8Array) => void;
+
+/** The texts of answers as the server sent them: written anew, they would lose the sign of zeros. */
+const texts = new WeakMap<AnswerMessage, string>();
+
+/** The text of an answer as it was sent; of one that the page has made, as it writes it. */
+export function textOf(message: AnswerMessage): string {
+  return texts.get(message) ?? JSON.stringify(message.answer);
+}
 
 const FIRST_WAIT_MS = 250;
 const LONGEST_WAIT_MS = 5000;
@@ -49,12 +57,11 @@ export class Connection {
   }
 }
 
-/** A message and its payload. Of an answer also the text as the server sent it: written anew, it
- * would lose the sign of zeros. */
+/** A message and its payload. */
 export function decode(data: string | ArrayBuffer): [ServerMessage, Uint8Array] {
   if (typeof data === "string") {
     const message = JSON.parse(data) as ServerMessage;
-    if (message.type === "answer") message.text = lastField(data, "answer");
+    if (message.type === "answer") texts.set(message, lastField(data, "answer"));
     return [message, NOTHING];
   }
   const length = new DataView(data).getUint32(0, true);

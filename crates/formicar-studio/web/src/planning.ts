@@ -206,7 +206,6 @@ function refusal(plan: number, slot: Slot, side: SlotState, reason: string): Ans
     tightest: null,
     cli: "",
     toml: "",
-    text: JSON.stringify(answer),
   };
 }
 

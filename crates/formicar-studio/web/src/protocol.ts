@@ -256,8 +256,6 @@ export interface AnswerMessage {
   toml: string;
   /** The last field of the message. */
   answer: Answer;
-  /** The answer's text as it was sent; the connection adds it. */
-  text: string;
 }
 
 /** A simulated drive. Angles in radians, positive to the left. */

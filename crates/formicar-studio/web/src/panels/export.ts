@@ -1,6 +1,7 @@
 /** Exports: a link, the path, a picture, the command line and the configuration. */
 
 import type { Actions } from "../actions";
+import { textOf } from "../connection";
 import { h, setText } from "../dom";
 import { plain } from "../format";
 import { notify } from "../notice";
@@ -113,8 +114,8 @@ class Panel {
   }
 
   private saveJson(): void {
-    const text = shownSlot(this.store.state).plan?.end?.text;
-    if (text) saveFile(this.stem(), "json", `${text}\n`);
+    const end = shownSlot(this.store.state).plan?.end;
+    if (end) saveFile(this.stem(), "json", `${textOf(end)}\n`);
   }
 
   private saveCsv(): void {
