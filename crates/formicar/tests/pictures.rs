@@ -1,7 +1,9 @@
 //! Pictures are well-formed, repeatable, of bounded size, and survive absurd values.
 
 use formicar::geometry::{Point2, Pose2};
-use formicar::map::{BitGrid, Cell, GridFrame, OccupancyGrid};
+use formicar::map::{
+    BitGrid, Cell, GridFrame, MAX_ORIGIN_M, MAX_RESOLUTION_M, MIN_RESOLUTION_M, OccupancyGrid,
+};
 use formicar::numeric::Seed;
 use formicar::path::{CurvePath, CurveSegment, Direction, GridPath, WaypointPath};
 use formicar::planner::{ColonyParameters, Planner, PlannerConfig, Stages};
@@ -223,9 +225,9 @@ fn layers_are_named_in_the_legend() {
 fn one_row_of_cells_and_huge_frames_are_drawn() {
     let frames = [
         GridFrame::new(100_000, 1, 0.05, Pose2::default()),
-        GridFrame::new(1, 3000, 1e12, Pose2::new(1e15, -1e15, 1.0)),
-        GridFrame::new(3, 3, 1e308, Pose2::new(1e308, 0.0, 0.0)),
-        GridFrame::new(200, 200, 1e-300, Pose2::new(5.0, 0.0, 0.0)),
+        GridFrame::new(1, 3000, 1e6, Pose2::new(1e9, -1e9, 1.0)),
+        GridFrame::new(3, 3, MAX_RESOLUTION_M, Pose2::new(MAX_ORIGIN_M, 0.0, 0.0)),
+        GridFrame::new(200, 200, MIN_RESOLUTION_M, Pose2::new(5.0, 0.0, 0.0)),
     ];
     for frame in frames.map(Result::unwrap) {
         let map = OccupancyGrid::new(frame, vec![100; frame.n_cells()]).unwrap();
