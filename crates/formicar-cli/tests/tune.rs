@@ -24,7 +24,7 @@ const FLAGS: [&str; 21] = [
     "--hold-back",
     "0.5",
     "--budget",
-    "2000",
+    "500",
 ];
 
 fn tune(room: &Room, more: &[&str]) -> Run {

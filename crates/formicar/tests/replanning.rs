@@ -286,8 +286,8 @@ impl Observer for Told {
 #[test]
 fn whatever_appears_every_answer_is_certified_and_repeats_itself() {
     let parameters = ScatterParameters {
-        n_cols: 150,
-        n_rows: 120,
+        n_cols: quick_or_full(90, 150),
+        n_rows: quick_or_full(70, 120),
         resolution_m: 0.1,
         density: 0.04,
         max_obstacle_cells: 8,
