@@ -68,6 +68,7 @@ export class Actions {
       case "dropped":
         break;
       case "map":
+        if (!this.opening.isOf(message)) break;
         if (this.opening.came(message, payload)) this.mapOpened();
         else this.planAll("settle", performance.now());
         break;

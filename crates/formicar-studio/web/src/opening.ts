@@ -1,6 +1,6 @@
 /** Opening maps and scenes: the parts of a scene are set when its map arrives. */
 
-import { vehicleChoice } from "./choices";
+import { opens, vehicleChoice } from "./choices";
 import type { Connection } from "./connection";
 import { firstRequest } from "./first_request";
 import { decode, defaultConfig, type Scene } from "./link";
@@ -45,6 +45,11 @@ export class Opening {
   /** The choice that opens the current map. */
   get choice(): MapChoice {
     return this.current;
+  }
+
+  /** Whether a map is the one that was asked for last, and not one that was overtaken. */
+  isOf(message: MapMessage): boolean {
+    return opens(this.wanted?.map ?? this.current, message);
   }
 
   open(wanted: Wanted): void {
