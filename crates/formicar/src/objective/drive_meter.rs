@@ -5,7 +5,7 @@ use crate::collision::{Body, ObstacleMap};
 use crate::geometry::{Arc, Point2, Pose2};
 use std::f64::consts::SQRT_2;
 
-/// Additional cost of a metre at a position in grid coordinates, at least 0: a preference.
+/// Additional cost of a meter at a position in grid coordinates, at least 0: a preference.
 pub type SoftCost<'a> = &'a (dyn Fn(Point2) -> f64 + Sync);
 
 /// Measures the [`DriveCost`] of arcs for a body on a map, in grid coordinates.
@@ -30,7 +30,7 @@ impl<'a> DriveMeter<'a> {
     /// Steps never get shorter than this share of a cell.
     const LEAST_SPACING_CELLS: f64 = 0.5;
 
-    /// For a body with a turning radius in metres.
+    /// For a body with a turning radius in meters.
     pub fn new(
         obstacles: &'a ObstacleMap,
         body: &'a Body,
@@ -131,7 +131,7 @@ impl<'a> DriveMeter<'a> {
         sum
     }
 
-    /// Additional cost of a metre at a place, and the distance that the body may move while it stays
+    /// Additional cost of a meter at a place, and the distance that the body may move while it stays
     /// 0.
     fn rate(&self, walk: &Walk) -> (f64, f64) {
         let wish_m = self.cost.clearance_wish_m;

@@ -29,15 +29,15 @@ parameters! {
 /// A polyline with all that its cost depends on.
 #[derive(Clone, Copy, Debug)]
 pub struct SteeredLine<'a> {
-    /// Its points, metres.
+    /// Its points, meters.
     pub points: &'a [Point2],
     /// The heading that the first step turns from; none where it is free.
     pub start_heading_rad: Option<f64>,
-    /// Wheelbase in metres and largest steering in radians.
+    /// Wheelbase in meters and largest steering in radians.
     pub steering: [f64; 2],
     /// The suspension, which limits the steering.
     pub suspension: &'a SuspensionParameters,
-    /// `L_ref`, metres, above 0.
+    /// `L_ref`, meters, above 0.
     pub reference_m: f64,
 }
 
@@ -46,7 +46,7 @@ pub struct SteeredLine<'a> {
 pub struct PolylineCost {
     /// J.
     pub cost: f64,
-    /// Length, metres.
+    /// Length, meters.
     pub length_m: f64,
     /// W: mean squared deviation of the turns from their mean, radians squared.
     pub turn_variance_rad2: f64,
@@ -100,7 +100,7 @@ pub struct SteeringMeter {
 }
 
 impl SteeringMeter {
-    /// For a vehicle at rest with a wheelbase in metres and a largest steering in radians.
+    /// For a vehicle at rest with a wheelbase in meters and a largest steering in radians.
     pub fn new([wheelbase_m, max_steer_rad]: [f64; 2], suspended: SuspendedSteering) -> Self {
         Self {
             wheelbase_m,

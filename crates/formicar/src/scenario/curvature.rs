@@ -39,7 +39,7 @@ pub enum CurvatureMode {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct CurvatureRate {
-    /// Fastest change of the curvature per driven metre, 1/m^2, 0.0001 to 10000. Where left out,
+    /// Fastest change of the curvature per driven meter, 1/m^2, 0.0001 to 10000. Where left out,
     /// what the vehicle's steering rate allows at its speed.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     #[cfg_attr(feature = "schema", schemars(range(min = 1e-4, max = 1e4)))]

@@ -8,7 +8,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum ScenarioError {
     /// Something that every request needs.
-    #[error("{what} is missing; hint: give it as x, y, heading in metres and radians")]
+    #[error("{what} is missing; hint: give it as x, y, heading in meters and radians")]
     Missing {
         /// The name of the missing value.
         what: &'static str,
@@ -73,17 +73,17 @@ pub enum ScenarioError {
     OutsideMap {
         /// Start, goal or via point.
         which: Endpoint,
-        /// Metres.
+        /// Meters.
         x: f64,
-        /// Metres.
+        /// Meters.
         y: f64,
-        /// Lower left corner of the map, metres.
+        /// Lower left corner of the map, meters.
         low_x: f64,
-        /// Lower left corner of the map, metres.
+        /// Lower left corner of the map, meters.
         low_y: f64,
-        /// Opposite corner, metres, before the map's yaw is applied.
+        /// Opposite corner, meters, before the map's yaw is applied.
         high_x: f64,
-        /// Opposite corner, metres, before the map's yaw is applied.
+        /// Opposite corner, meters, before the map's yaw is applied.
         high_y: f64,
         /// The map's yaw about its lower left corner.
         yaw_rad: f64,
@@ -93,9 +93,9 @@ pub enum ScenarioError {
     Occupied {
         /// Start, goal or via point.
         which: Endpoint,
-        /// Metres.
+        /// Meters.
         x: f64,
-        /// Metres.
+        /// Meters.
         y: f64,
         /// The obstacle, and the depth of the overlap.
         problem: String,

@@ -16,7 +16,7 @@ pub struct ReachedGoal {
     pub index: usize,
     /// The goal.
     pub goal: Pose2,
-    /// Distance of the path's end from it, metres.
+    /// Distance of the path's end from it, meters.
     pub error_m: f64,
     /// Heading difference as the goal-heading mode counts it, radians.
     pub error_rad: f64,

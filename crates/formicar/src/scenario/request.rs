@@ -22,9 +22,9 @@ use std::time::Duration;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Request {
-    /// Pose of the rear-axle centre at the beginning.
+    /// Pose of the rear-axle center at the beginning.
     pub start: Pose2,
-    /// Pose of the rear-axle centre at the end.
+    /// Pose of the rear-axle center at the end.
     pub goal: Pose2,
     /// Other goals, under the same heading mode and tolerance: the path ends at whichever is
     /// nearest.
@@ -59,7 +59,7 @@ impl Request {
     }
 }
 
-/// A place that a path passes: the rear-axle centre comes within the tolerance of it.
+/// A place that a path passes: the rear-axle center comes within the tolerance of it.
 ///
 /// ```
 /// use formicar::{Point2, Pose2, Request, ViaPoint};
@@ -140,7 +140,7 @@ pub enum GoalHeading {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct GoalTolerance {
-    /// Distance in metres, above 0.
+    /// Distance in meters, above 0.
     #[cfg_attr(feature = "serde", serde(rename = "xy"))]
     pub xy_m: f64,
     /// Heading difference in radians, above 0.

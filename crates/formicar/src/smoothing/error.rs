@@ -20,9 +20,9 @@ pub enum SmoothingError {
     Corner {
         /// Number of the corner, from 1.
         number: usize,
-        /// World coordinate, metres.
+        /// World coordinate, meters.
         x: f64,
-        /// World coordinate, metres.
+        /// World coordinate, meters.
         y: f64,
         /// Turn of the polyline there, degrees, positive left.
         turn_deg: f64,
@@ -34,9 +34,9 @@ pub enum SmoothingError {
     /// A straight piece that the body cannot drive.
     #[error("on the straight way from ({x:.2}, {y:.2}) m on the body touches obstacles{}", no_curve(*corners))]
     Straight {
-        /// World coordinate, metres.
+        /// World coordinate, meters.
         x: f64,
-        /// World coordinate, metres.
+        /// World coordinate, meters.
         y: f64,
         /// The kinds of curves that were tried.
         corners: Corners,
@@ -48,7 +48,7 @@ pub enum SmoothingError {
     Heading {
         /// Start or goal.
         which: Endpoint,
-        /// Length of the polyline that was tried, metres.
+        /// Length of the polyline that was tried, meters.
         reach_m: f64,
     },
     /// Start and goal are the same place, where the body does not fit.
@@ -65,9 +65,9 @@ pub enum CornerProblem {
         "2-turning needs at least {needs_m:.3} m of the segment {side} it, which has {has_m:.3} m"
     )]
     TooShort {
-        /// Length that the member nearest to fitting takes, metres.
+        /// Length that the member nearest to fitting takes, meters.
         needs_m: f64,
-        /// Length of the segment, metres.
+        /// Length of the segment, meters.
         has_m: f64,
         /// "before" or "after".
         side: &'static str,
@@ -75,7 +75,7 @@ pub enum CornerProblem {
     /// Every member that fits the segments collides.
     #[error("every 2-turning touches obstacles, by {depth_m:.3} m where it nearly fits")]
     Touches {
-        /// Deepest overlap of the member that looks freest, metres.
+        /// Deepest overlap of the member that looks freest, meters.
         depth_m: f64,
     },
     /// The turn at the corner before ends too late.
@@ -83,9 +83,9 @@ pub enum CornerProblem {
         "2-turning needs at least {needs_m:.3} m of the segment before it, of which the turn before leaves {has_m:.3} m"
     )]
     Crowded {
-        /// Length that the shortest free member takes, metres.
+        /// Length that the shortest free member takes, meters.
         needs_m: f64,
-        /// Length that is left of the segment, metres.
+        /// Length that is left of the segment, meters.
         has_m: f64,
     },
     /// The path goes back the way it came.

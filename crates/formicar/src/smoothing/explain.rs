@@ -141,7 +141,7 @@ fn motion(map: &Roadmap, member: &Member, facing: Facing) -> (Pose2, [Arc; 2]) {
     (start, member.turning.arcs().map(|arc| facing.seen(arc)))
 }
 
-/// The deepest overlap along the member that looks freest on the distance transform, metres.
+/// The deepest overlap along the member that looks freest on the distance transform, meters.
 fn least_overlap_m<'a>(
     task: &RoundingTask,
     map: &Roadmap,

@@ -5,7 +5,7 @@ use crate::geometry::{Point2, Pose2, angle_difference};
 use crate::map::Cell;
 use crate::scenario::Request;
 
-/// Nodes nearer to each other than this are the same, metres.
+/// Nodes nearer to each other than this are the same, meters.
 const SAME_PLACE_M: f64 = 1e-9;
 /// Turns below this do not count, radians.
 const STRAIGHT_RAD: f64 = 1e-9;
@@ -15,7 +15,7 @@ const STRAIGHT_RAD: f64 = 1e-9;
 pub(super) struct Leg {
     pub(super) start: Pose2,
     pub(super) length_m: f64,
-    /// Length of the polyline before it, metres.
+    /// Length of the polyline before it, meters.
     pub(super) s_m: f64,
 }
 
@@ -61,7 +61,7 @@ impl Polyline {
         }
     }
 
-    /// Length in metres.
+    /// Length in meters.
     pub(super) fn length_m(&self) -> f64 {
         self.legs.last().map_or(0.0, |leg| leg.s_m + leg.length_m)
     }

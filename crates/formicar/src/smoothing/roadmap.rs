@@ -45,7 +45,7 @@ impl Facing {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Junction {
     pub(super) leg: usize,
-    /// Distance from the leg's beginning, metres.
+    /// Distance from the leg's beginning, meters.
     pub(super) at_m: f64,
     pub(super) role: Role,
 }
@@ -72,7 +72,7 @@ pub(super) struct Member {
 }
 
 impl Member {
-    /// Cost, metres: the length of the stretch that it replaces, not its own, so that the deviation
+    /// Cost, meters: the length of the stretch that it replaces, not its own, so that the deviation
     /// alone decides among members.
     pub(super) fn cost(&self) -> f64 {
         self.turning.before_m + self.turning.after_m + self.turning.deviation_m()
@@ -123,13 +123,13 @@ impl Roadmap {
         Pose2::at(pose.position(), pose.heading + facing.turn_rad())
     }
 
-    /// Length of the polyline up to a junction, metres.
+    /// Length of the polyline up to a junction, meters.
     pub(super) fn s_m(&self, junction: usize) -> f64 {
         let Junction { leg, at_m, .. } = self.junctions[junction];
         self.line.legs[leg].s_m + at_m
     }
 
-    /// The next junction of the same leg, and the distance to it in metres.
+    /// The next junction of the same leg, and the distance to it in meters.
     pub(super) fn next_on_leg(&self, junction: usize) -> Option<(usize, f64)> {
         let here = &self.junctions[junction];
         let next = self

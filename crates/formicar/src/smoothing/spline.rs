@@ -9,9 +9,9 @@ use crate::path::{CurvePath, CurveSegment, Direction};
 use crate::scenario::{GoalHeading, Request, StartHeading};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Largest distance of the arcs of a path from its spline, metres.
+/// Largest distance of the arcs of a path from its spline, meters.
 const TOLERANCE_M: f64 = 1e-3;
-/// Arcs shorter than this come from rounding, metres.
+/// Arcs shorter than this come from rounding, meters.
 const NEGLIGIBLE_M: f64 = 1e-9;
 
 /// The path along the B-spline of third order over way points, grid coordinates.

@@ -36,7 +36,7 @@ pub(super) struct RoundingTask<'a> {
 }
 
 impl RoundingTask<'_> {
-    /// The longest stretch of the polyline that one curve replaces, metres.
+    /// The longest stretch of the polyline that one curve replaces, meters.
     pub(super) fn reach_m(&self) -> f64 {
         self.config.reach_radii * self.radius_m
     }
@@ -54,7 +54,7 @@ impl RoundingTask<'_> {
         self.words_at(from, to, self.radius_m)
     }
 
-    /// The same with another radius of their arcs, metres.
+    /// The same with another radius of their arcs, meters.
     pub(super) fn words_at(&self, from: Pose2, to: Pose2, radius_m: f64) -> Vec<Curve> {
         match self.gears {
             Gears::Forward => dubins::candidates(from, to, radius_m),
@@ -72,7 +72,7 @@ impl RoundingTask<'_> {
         self.is_body_free(self.body, start, arcs)
     }
 
-    /// Cost of passing near obstacles along arcs, metres: 0 where the body keeps its margin; none
+    /// Cost of passing near obstacles along arcs, meters: 0 where the body keeps its margin; none
     /// where it hits something.
     pub(super) fn tightness_m(&self, start: Pose2, arcs: &[Arc]) -> Option<f64> {
         if self.is_body_free(self.careful_body, start, arcs) {

@@ -27,15 +27,15 @@ pub struct TwoTurning {
     pub order: TurnOrder,
     /// The corner's angle, positive left, in (-pi, pi) without 0.
     pub turn_rad: f64,
-    /// Radius of both arcs, metres.
+    /// Radius of both arcs, meters.
     pub radius_m: f64,
     /// The turn towards the corner's side, at least the corner's angle; it may exceed pi.
     pub alpha_rad: f64,
     /// The turn back, from 0 to [`Self::max_beta_rad`].
     pub beta_rad: f64,
-    /// From `S1` to the corner, metres.
+    /// From `S1` to the corner, meters.
     pub before_m: f64,
-    /// From the corner to `S3`, metres.
+    /// From the corner to `S3`, meters.
     pub after_m: f64,
 }
 
@@ -133,12 +133,12 @@ impl TwoTurning {
         [first, last]
     }
 
-    /// Driven length, metres.
+    /// Driven length, meters.
     pub fn length_m(&self) -> f64 {
         (self.alpha_rad + self.beta_rad) * self.radius_m
     }
 
-    /// The Hausdorff distance between the arcs and the two segments that they replace, metres:
+    /// The Hausdorff distance between the arcs and the two segments that they replace, meters:
     /// the larger of the distance by which they miss the corner and the one by which they
     /// overshoot a segment.
     pub fn deviation_m(&self) -> f64 {

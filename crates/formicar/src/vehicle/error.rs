@@ -24,11 +24,11 @@ pub enum VehicleError {
         "min_turning_radius_m = {radius_m} and max_steer ({steer_rad} rad, so {implied_m} m) disagree by more than 1 %; hint: give one of them"
     )]
     LimitsDisagree {
-        /// Radius given, metres.
+        /// Radius given, meters.
         radius_m: f64,
         /// Steering limit given, radians.
         steer_rad: f64,
-        /// Radius that the steering limit implies, metres.
+        /// Radius that the steering limit implies, meters.
         implied_m: f64,
     },
     /// A vehicle without a turning radius.

@@ -65,9 +65,9 @@ impl BicycleState {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AckermannAxles {
-    /// Distance between the axles, metres.
+    /// Distance between the axles, meters.
     pub wheelbase_m: f64,
-    /// Distance between the wheels of an axle, metres.
+    /// Distance between the wheels of an axle, meters.
     pub track_width_m: f64,
 }
 
@@ -105,7 +105,7 @@ impl AckermannAxles {
     }
 
     /// The difference between the paths of the front and the rear inner wheel: the
-    /// difference of their radii in metres (German *Innenraddifferenz*), 0 straight ahead.
+    /// difference of their radii in meters (German *Innenraddifferenz*), 0 straight ahead.
     pub fn inner_wheel_path_difference_m(self, steer_rad: f64) -> f64 {
         let tan = steer_rad.tan().abs();
         // Both radii times tan(steer) / wheelbase, so that a straight line is no special case.
@@ -125,7 +125,7 @@ impl AckermannAxles {
         }
     }
 
-    /// Radii of the wheels' paths, metres; infinite straight ahead.
+    /// Radii of the wheels' paths, meters; infinite straight ahead.
     pub fn wheel_path_radii_m(self, steer_rad: f64) -> Wheels<f64> {
         let radius = self.wheelbase_m / steer_rad.tan();
         let (left, right) = (

@@ -79,9 +79,9 @@ parameters! {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(untagged))]
 pub enum FootprintSpec {
-    /// Corner points `[x, y]`, metres.
+    /// Corner points `[x, y]`, meters.
     Points(Vec<[f64; 2]>),
-    /// `"[[x1, y1], [x2, y2], ...]"`, metres.
+    /// `"[[x1, y1], [x2, y2], ...]"`, meters.
     RosString(String),
 }
 

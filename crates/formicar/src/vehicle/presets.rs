@@ -68,7 +68,7 @@ impl Vehicle {
     }
 }
 
-/// `[wheelbase, width, front overhang, rear overhang]`, metres.
+/// `[wheelbase, width, front overhang, rear overhang]`, meters.
 fn rectangle(lengths: [f64; 4], max_steer_rad: f64, track_width_m: Option<f64>) -> Vehicle {
     let [wheelbase_m, width_m, front_overhang_m, rear_overhang_m] = lengths.map(Some);
     Vehicle::new(VehicleParameters {

@@ -14,7 +14,7 @@ use std::f64::consts::{PI, TAU};
 pub struct Primitive {
     /// Curvature, positive where the wheels point left; 0 on a line.
     pub curvature_per_m: f64,
-    /// Driven length in metres, above 0.
+    /// Driven length in meters, above 0.
     pub length_m: f64,
     /// +1 forward, -1 in reverse.
     pub gear_sign: i8,
@@ -170,7 +170,7 @@ impl PrimitiveSet {
         self.gears
     }
 
-    /// Angle between neighbouring lattice headings, radians.
+    /// Angle between neighboring lattice headings, radians.
     pub fn step_rad(&self) -> f64 {
         TAU / self.n_headings as f64
     }
@@ -191,7 +191,7 @@ impl PrimitiveSet {
         steps.rem_euclid(self.n_headings as f64) as usize % self.n_headings
     }
 
-    /// The displacement of each motion from a lattice heading, metres along the axes of the map, in
+    /// The displacement of each motion from a lattice heading, meters along the axes of the map, in
     /// the order of [`Self::primitives`].
     pub fn displacements(&self, heading_index: usize) -> &[Point2] {
         let n = self.primitives.len();

@@ -15,7 +15,7 @@ use xxhash_rust::xxh3::xxh3_128;
 pub enum Motion {
     /// Rolls on a steered axle: bounded curvature, heading along the path.
     Car,
-    /// A holonomic point: any direction at any time; only its centre line must stay free.
+    /// A holonomic point: any direction at any time; only its center line must stay free.
     Point,
 }
 
@@ -108,33 +108,33 @@ impl Vehicle {
         self.motion
     }
 
-    /// The body with its safety margin, around the rear-axle centre, x forward, y left, metres.
+    /// The body with its safety margin, around the rear-axle center, x forward, y left, meters.
     pub fn footprint(&self) -> &ConvexPolygon {
         &self.footprint
     }
 
-    /// Width of the body with its safety margin, metres; 0 for a point.
+    /// Width of the body with its safety margin, meters; 0 for a point.
     pub fn width_m(&self) -> f64 {
         let (low, high) = self.footprint.bounds();
         high.y - low.y
     }
 
-    /// Largest curvature of the rear-axle centre's path; infinite for a point.
+    /// Largest curvature of the rear-axle center's path; infinite for a point.
     pub fn max_curvature_per_m(&self) -> f64 {
         self.max_curvature_per_m
     }
 
-    /// Smallest turning radius of the rear-axle centre, metres; 0 for a point.
+    /// Smallest turning radius of the rear-axle center, meters; 0 for a point.
     pub fn min_turning_radius_m(&self) -> f64 {
         1.0 / self.max_curvature_per_m
     }
 
-    /// Distance between the axles, metres, where it is known.
+    /// Distance between the axles, meters, where it is known.
     pub fn wheelbase_m(&self) -> Option<f64> {
         self.parameters.wheelbase_m
     }
 
-    /// Distance between the wheels of an axle, metres; 0.8 of the width unless given.
+    /// Distance between the wheels of an axle, meters; 0.8 of the width unless given.
     pub fn track_width_m(&self) -> f64 {
         let (low, high) = self.footprint.bounds();
         self.parameters
@@ -148,7 +148,7 @@ impl Vehicle {
             .map(|wheelbase| (wheelbase * curvature_per_m).atan())
     }
 
-    /// Wheelbase in metres and largest steering angle in radians.
+    /// Wheelbase in meters and largest steering angle in radians.
     ///
     /// Where only a turning radius is known, those of a car with that radius whose largest
     /// steering is 45 degrees; of a point, those of a car with a turning radius of 1 m.
@@ -228,7 +228,7 @@ fn body(p: &VehicleParameters) -> Result<ConvexPolygon, VehicleError> {
     ))
 }
 
-/// The largest turning radius, metres: as long as the longest segment that the judge drives. A
+/// The largest turning radius, meters: as long as the longest segment that the judge drives. A
 /// curve of a larger one would take unbounded time to follow.
 const MAX_TURNING_RADIUS_M: f64 = 1e5;
 

@@ -62,9 +62,9 @@ impl SuspensionParameters {
 pub struct SteeringDemand {
     /// K: curvature as it is felt, 1/m, positive left.
     pub curvature_per_m: f64,
-    /// Deflection of the suspension, metres, positive left.
+    /// Deflection of the suspension, meters, positive left.
     pub deflection_m: f64,
-    /// Place of the steering wheel in the body frame, metres.
+    /// Place of the steering wheel in the body frame, meters.
     pub wheel_m: (f64, f64),
     /// Steering that the step needs, radians, positive left.
     pub needed_rad: f64,
@@ -87,7 +87,7 @@ pub struct SuspendedSteering {
 }
 
 impl SuspendedSteering {
-    /// A vehicle with a wheelbase in metres and a largest steering in radians, at rest; it will
+    /// A vehicle with a wheelbase in meters and a largest steering in radians, at rest; it will
     /// take steps of about `step_m`, which must be positive.
     ///
     /// # Errors

@@ -19,7 +19,7 @@ pub struct BodyMotion {
 }
 
 impl BodyMotion {
-    /// Velocity of the wheel at (x, y) in the body frame, metres: in m/s in the world frame.
+    /// Velocity of the wheel at (x, y) in the body frame, meters: in m/s in the world frame.
     pub fn wheel_velocity_mps(&self, wheel_m: Point2) -> Point2 {
         // Li 2024 (6): v_xp = v_ox - (x sin theta + y cos theta) omega,
         // v_yp = v_oy + (x cos theta - y sin theta) omega.
@@ -27,7 +27,7 @@ impl BodyMotion {
         self.velocity_mps + arm.perpendicular() * self.yaw_rate_rad_per_s
     }
 
-    /// Acceleration of the wheel at (x, y) in the body frame, metres: in m/s² in the world frame.
+    /// Acceleration of the wheel at (x, y) in the body frame, meters: in m/s² in the world frame.
     pub fn wheel_acceleration_mps2(&self, wheel_m: Point2) -> Point2 {
         // Li 2024 (7): (6) by time, where the arm turns with the body.
         let arm = self.arm(wheel_m);

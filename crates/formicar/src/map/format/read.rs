@@ -9,13 +9,13 @@ use super::{
 use crate::map::OccupancyGrid;
 use std::path::Path;
 
-/// Resolution of a TPCAP case where none is given, metres per cell.
+/// Resolution of a TPCAP case where none is given, meters per cell.
 const DEFAULT_TPCAP_RESOLUTION_M: f64 = 0.1;
 
 /// Settings that a map file may leave open.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ReadOptions {
-    /// Side of a cell in metres, for formats that do not say: `MovingAI` maps and matrices (1 m
+    /// Side of a cell in meters, for formats that do not say: `MovingAI` maps and matrices (1 m
     /// unless given), TPCAP cases (0.1 m unless given), and images without a description (which
     /// need it). A ROS map says its own; another one here is an error.
     pub resolution_m: Option<f64>,
@@ -120,7 +120,7 @@ fn text_map(
 fn image(bytes: &[u8], options: &ReadOptions) -> Result<MapFile, FormatError> {
     let resolution_m = options.resolution_m.ok_or(FormatProblem::Missing {
         thing: "the resolution",
-        hint: "an image alone does not say it: give it in metres per cell, or read the map's YAML",
+        hint: "an image alone does not say it: give it in meters per cell, or read the map's YAML",
     })?;
     let description = RosMapDescription::of_bare_image(resolution_m);
     description.to_map_file(&GreyImage::from_bytes(bytes)?, options.unknown_grey)

@@ -55,9 +55,9 @@ impl fmt::Display for RosMapMode {
 pub struct RosMapDescription {
     /// The image as written: absolute, in the home folder (`~/`), or relative to the description.
     pub image: String,
-    /// Side of a cell, metres, above 0.
+    /// Side of a cell, meters, above 0.
     pub resolution_m: f64,
-    /// Pose of the lower left corner, metres and radians.
+    /// Pose of the lower left corner, meters and radians.
     pub origin: Pose2,
     /// True if white is occupied instead of black.
     pub negate: bool,
@@ -219,7 +219,7 @@ fn origin(numbers: &[f64]) -> Result<Pose2, FormatProblem> {
         _ => Err(FormatProblem::bad_value(
             "origin",
             format!("a list of {} numbers", numbers.len()),
-            "[x, y, yaw] in metres and radians",
+            "[x, y, yaw] in meters and radians",
         )),
     }
 }

@@ -7,12 +7,12 @@ use crate::geometry::{Point2, Pose2};
 use crate::map::{GridFrame, OCCUPIED, OccupancyGrid};
 use std::path::Path;
 
-/// Free ground around everything in a case, metres.
+/// Free ground around everything in a case, meters.
 pub const TPCAP_MARGIN_M: f64 = 10.0;
 
 /// A parking case, moved so that everything has positive coordinates near 0.
 ///
-/// Some cases lie 10^9 m from their origin, where metres have few digits left.
+/// Some cases lie 10^9 m from their origin, where meters have few digits left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TpcapCase {
     /// Rear-axle pose at the beginning.

@@ -115,7 +115,7 @@ impl DrivableMap {
         &self.parts.motions.body
     }
 
-    /// The least turning radius, metres.
+    /// The least turning radius, meters.
     pub fn radius_m(&self) -> f64 {
         self.parts.motions.radius_m
     }

@@ -54,7 +54,7 @@ impl DriveProblem<'_> {
         least
     }
 
-    /// Approximate length of a motion, metres.
+    /// Approximate length of a motion, meters.
     pub fn step_m(&self) -> f64 {
         self.primitives().primitives()[0].length_m
     }

@@ -8,7 +8,7 @@ pub type Driven = (Pose2, Vec<Arc>);
 /// The cells of a goal field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldGrid {
-    /// Side of a cell, metres.
+    /// Side of a cell, meters.
     pub resolution_m: f64,
     /// Number of columns.
     pub n_cols: usize,

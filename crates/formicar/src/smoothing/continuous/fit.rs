@@ -19,9 +19,9 @@ pub(super) struct Limits {
 /// harm.
 pub(super) const RESERVE: f64 = 1e-5;
 
-/// No ramp gets shorter than this, metres: a shorter one has no rate in rounded numbers.
+/// No ramp gets shorter than this, meters: a shorter one has no rate in rounded numbers.
 const MIN_LENGTH_M: f64 = 1e-4;
-/// Newton's method ends within these, metres and radians.
+/// Newton's method ends within these, meters and radians.
 const CLOSE_M: f64 = 1e-11;
 const CLOSE_RAD: f64 = 1e-12;
 const MAX_NEWTON_STEPS: usize = 14;

@@ -25,7 +25,7 @@ use thiserror::Error;
 /// Most stations that one part of the path reaches over.
 const MAX_SPAN: usize = 14;
 
-/// Deviations with which a clothoid is checked, metres: most are free with the first.
+/// Deviations with which a clothoid is checked, meters: most are free with the first.
 const TOLERANCES_M: [f64; 2] = [1e-3, 5e-5];
 
 /// The map, the vehicle and the limits of a continuous path.
@@ -35,7 +35,7 @@ pub struct Continuity<'a> {
     pub obstacles: &'a ObstacleMap,
     /// The vehicle.
     pub vehicle: &'a Vehicle,
-    /// Fastest change of the curvature per driven metre, 1/m^2, above 0.
+    /// Fastest change of the curvature per driven meter, 1/m^2, above 0.
     pub max_rate_per_m2: f64,
     /// The cost of driving, by which parts are compared.
     pub cost: &'a DriveCost,
@@ -48,7 +48,7 @@ pub struct Continuity<'a> {
     if *.touches { ": those tried touch obstacles" } else { ": the arcs are too short or too tight" }
 )]
 pub struct NoTransition {
-    /// The last place that was reached, metres.
+    /// The last place that was reached, meters.
     pub x: f64,
     /// The same.
     pub y: f64,
@@ -65,9 +65,9 @@ pub struct NoTransition {
 struct PartialPath {
     from: usize,
     chain: Chain,
-    /// Cost of passing near obstacles on this part, metres.
+    /// Cost of passing near obstacles on this part, meters.
     nearness_m: f64,
-    /// Cost of the path up to its end, metres.
+    /// Cost of the path up to its end, meters.
     cost_m: f64,
 }
 
@@ -126,7 +126,7 @@ impl Continuity<'_> {
         fit(&mut chain, target, self.limits()).then_some(chain)
     }
 
-    /// Cost of passing near obstacles along a chain, metres.
+    /// Cost of passing near obstacles along a chain, meters.
     fn nearness_m(&self, body: &Body, chain: &Chain, start: Pose2) -> f64 {
         let radius_m = self.vehicle.min_turning_radius_m();
         let meter = DriveMeter::new(self.obstacles, body, self.cost, radius_m);

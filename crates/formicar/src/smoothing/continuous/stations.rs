@@ -17,7 +17,7 @@ pub(super) struct Station {
     pub(super) stands: bool,
 }
 
-/// Segments shorter than this are rounding, metres.
+/// Segments shorter than this are rounding, meters.
 const NEGLIGIBLE_M: f64 = 1e-9;
 
 /// The segments that have a length.

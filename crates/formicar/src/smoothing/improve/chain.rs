@@ -8,9 +8,9 @@ use crate::geometry::{Arc, Pose2};
 pub(super) struct Piece {
     pub(super) start: Pose2,
     pub(super) arc: Arc,
-    /// Cost in its place, metres, without joints.
+    /// Cost in its place, meters, without joints.
     pub(super) cost_m: f64,
-    /// Driven length before it, metres.
+    /// Driven length before it, meters.
     pub(super) from_m: f64,
 }
 
@@ -42,7 +42,7 @@ impl Piece {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PathPosition {
     pub(super) piece: usize,
-    /// Driven on the piece, from 0 to its length, metres.
+    /// Driven on the piece, from 0 to its length, meters.
     pub(super) driven_m: f64,
 }
 
@@ -55,7 +55,7 @@ pub(super) struct Chain {
 }
 
 impl Chain {
-    /// Places nearer to the end of a piece than this are that end, metres.
+    /// Places nearer to the end of a piece than this are that end, meters.
     const SNAP_M: f64 = 1e-6;
 
     /// The path along arcs that are merged already, at least one.

@@ -32,7 +32,7 @@ pub struct ImproveProblem<'a> {
     pub obstacles: &'a ObstacleMap,
     /// The vehicle's body.
     pub body: &'a Body,
-    /// The vehicle's least turning radius, metres.
+    /// The vehicle's least turning radius, meters.
     pub radius_m: f64,
     /// Gears that may be used.
     pub gears: Gears,
@@ -47,9 +47,9 @@ pub struct ImproveProblem<'a> {
 pub struct Improved {
     /// Its arcs, from the start pose that was given.
     pub arcs: Vec<Arc>,
-    /// Cost before, metres.
+    /// Cost before, meters.
     pub start_cost_m: f64,
-    /// Cost now, metres.
+    /// Cost now, meters.
     pub cost_m: f64,
     /// Tries made; each is a step of the limits.
     pub n_tries: u64,
@@ -69,7 +69,7 @@ const TRIES_PER_LOOK: u64 = 16;
 const TRIES_PER_ROUND: u64 = 64;
 /// The least gain that is worth reporting, relative to the cost.
 const REPORT_GAIN: f64 = 1e-4;
-/// Largest distance of the end of a chain from its goal by rounding, metres and radians.
+/// Largest distance of the end of a chain from its goal by rounding, meters and radians.
 const END_TOLERANCE: f64 = 1e-9;
 /// Numbers of pieces that a systematic pass replaces at once, in this order.
 const SPANS: [usize; 6] = [32, 16, 8, 4, 3, 2];

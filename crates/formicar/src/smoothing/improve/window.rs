@@ -4,7 +4,7 @@ use super::chain::{Chain, PathPosition, Piece};
 use super::task::ImproveTask;
 use crate::geometry::{Arc, Curve, Pose2};
 
-/// Least gain of a replacement, metres: more than rounding.
+/// Least gain of a replacement, meters: more than rounding.
 const LEAST_GAIN_M: f64 = 1e-6;
 
 /// A stretch between two places, with the rests of the pieces that it cuts.
@@ -32,7 +32,7 @@ struct Draft {
 pub(super) struct Route {
     pub(super) start: Pose2,
     pub(super) curves: [Curve; 2],
-    /// A lower bound of what the touched pieces would cost, metres.
+    /// A lower bound of what the touched pieces would cost, meters.
     pub(super) bound_m: f64,
 }
 

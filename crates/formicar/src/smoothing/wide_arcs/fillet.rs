@@ -26,9 +26,9 @@ pub(in crate::smoothing) struct Rounded {
 pub(super) struct Fillet {
     pub(super) turn_rad: f64,
     pub(super) radius_m: f64,
-    /// Distance of both ends of the arc from the corner, metres.
+    /// Distance of both ends of the arc from the corner, meters.
     pub(super) tangent_m: f64,
-    /// Cost of passing near obstacles along the arc, metres.
+    /// Cost of passing near obstacles along the arc, meters.
     pub(super) tightness_m: f64,
 }
 
@@ -66,7 +66,7 @@ impl Fillet {
         })
     }
 
-    /// Cost of a corner beyond the length of its legs, metres.
+    /// Cost of a corner beyond the length of its legs, meters.
     pub(super) fn cost(&self, task: &RoundingTask) -> f64 {
         if self.turn_rad == 0.0 {
             return 0.0;

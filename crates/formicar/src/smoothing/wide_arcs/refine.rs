@@ -9,7 +9,7 @@ use std::ops::RangeInclusive;
 const MOVES_RADII: [f64; 4] = [0.6, 0.3, 0.12, 0.05];
 /// Most passes over all corners with each step.
 const MAX_PASSES: usize = 4;
-/// Least gain of a change, metres.
+/// Least gain of a change, meters.
 const LEAST_GAIN_M: f64 = 1e-6;
 
 /// Points with an arc at each, except the first and the last.
@@ -17,7 +17,7 @@ const LEAST_GAIN_M: f64 = 1e-6;
 pub(super) struct Chain {
     pub(super) points: Vec<Point2>,
     pub(super) fillets: Vec<Fillet>,
-    /// Cost of passing near obstacles, by leg, metres.
+    /// Cost of passing near obstacles, by leg, meters.
     pub(super) tightness_m: Vec<f64>,
     /// Whether the first leg must keep its direction, and the last one.
     pub(super) first_is_fixed: bool,
@@ -213,7 +213,7 @@ impl Chain {
         })
     }
 
-    /// Room for a corner's arc on the shorter of both legs, metres: corners beyond a range keep
+    /// Room for a corner's arc on the shorter of both legs, meters: corners beyond a range keep
     /// their arcs, those in it share their legs.
     fn room_m(&self, corner: usize, range: &RangeInclusive<usize>) -> f64 {
         let room = |leg: usize, other: usize| {
@@ -246,7 +246,7 @@ impl Chain {
         })
     }
 
-    /// The ends of the straight part of a leg, metres from its first point.
+    /// The ends of the straight part of a leg, meters from its first point.
     fn straight_m(&self, leg: usize) -> [f64; 2] {
         let tangent_m = |corner: usize| {
             let fillet = corner.checked_sub(1).and_then(|i| self.fillets.get(i));
@@ -265,7 +265,7 @@ impl Chain {
         (self.points[leg + 1] - self.points[leg]).angle()
     }
 
-    /// The pose on a leg, some metres from its first point.
+    /// The pose on a leg, some meters from its first point.
     pub(super) fn pose(&self, leg: usize, at_m: f64) -> Pose2 {
         Pose2::at(self.points[leg], self.heading_rad(leg)).advance(0.0, at_m)
     }

@@ -102,13 +102,13 @@ pub(super) struct Leg {
     from: usize,
     pub(super) sight: Sight,
     reached: Reached,
-    /// The end of the arc that leads onto the leg, metres from the leg's first point.
+    /// The end of the arc that leads onto the leg, meters from the leg's first point.
     begins_m: f64,
     /// From there the body is known to be free up to `clear_m`, and to hit something before
     /// `hit_m`.
     clear_m: f64,
     hit_m: f64,
-    /// Cost of passing near obstacles on that stretch, metres.
+    /// Cost of passing near obstacles on that stretch, meters.
     tightness_m: f64,
 }
 
@@ -226,13 +226,13 @@ impl Search<'_> {
         self.close(reached, cost);
     }
 
-    /// The pose on a leg, some metres from its beginning.
+    /// The pose on a leg, some meters from its beginning.
     pub(super) fn pose(&self, leg: usize, at_m: f64) -> Pose2 {
         let Leg { from, sight, .. } = self.legs[leg];
         Pose2::at(self.sights.points[from], sight.heading_rad).advance(0.0, at_m)
     }
 
-    /// Cost of passing near obstacles from where a leg begins up to some metres from its first
+    /// Cost of passing near obstacles from where a leg begins up to some meters from its first
     /// point; none where the body hits something.
     fn straight_tightness_m(&mut self, leg: usize, up_to_m: f64) -> Option<f64> {
         let Leg {

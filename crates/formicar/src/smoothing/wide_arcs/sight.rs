@@ -4,7 +4,7 @@ use crate::geometry::Point2;
 use crate::map::{BitGrid, DiagonalRule, line_of_sight};
 use std::ops::Range;
 
-/// Points nearer to each other than this are the same, metres.
+/// Points nearer to each other than this are the same, meters.
 const SAME_PLACE_M: f64 = 1e-9;
 /// Weight of the heuristic: above 1 the search skips paths that might be slightly better; the
 /// result costs at most this many times the least.
@@ -38,7 +38,7 @@ pub(super) struct Sights {
     all: Vec<Sight>,
     /// The part of `all` that belongs to each point.
     ranges: Vec<Range<usize>>,
-    /// Least cost from each point to the last, metres.
+    /// Least cost from each point to the last, meters.
     rest: Vec<f64>,
 }
 
@@ -113,7 +113,7 @@ impl Sights {
         &self.all[self.ranges[point].clone()]
     }
 
-    /// Least cost from a point to the last, metres; corners on the way count, one at the point does
+    /// Least cost from a point to the last, meters; corners on the way count, one at the point does
     /// not.
     pub(super) fn rest_m(&self, point: usize) -> f64 {
         HASTE * self.rest[point]
