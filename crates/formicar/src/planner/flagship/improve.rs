@@ -9,7 +9,8 @@ use crate::progress::{Limits, Status};
 use crate::search::{Driven, Side, hybrid_astar};
 use crate::smoothing::{ImproveConfig, ImproveProblem, Improver};
 
-/// Another path is improved where it is at most so many times as long as the best one.
+/// Another path is improved where on open ground it would cost at most so many times what the
+/// best one costs.
 const WORTH_RATIO: f64 = 1.3;
 /// Tries that the path of an ant is given at first,
 const QUICK_TRIES: u64 = 300;
@@ -18,8 +19,10 @@ const PROMISING_RATIO: f64 = 1.03;
 /// A best path that costs at least so many times the way along the goal field, which knows no
 /// turns, may not be the best way around: ants look for others,
 const GOOD_RATIO: f64 = 1.25;
-/// and hybrid A* has so many times its steps.
+/// and hybrid A* has so many times its steps,
 const MORE_STEPS: u64 = 4;
+/// and searches anew by the whole cost, for at most so many steps from either end.
+const FULL_COST_STEPS: u64 = 3_000;
 
 /// Paths that are announced to the observer while they improve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,9 +55,9 @@ impl Query<'_> {
         let task = ImproveProblem {
             obstacles: self.task.obstacles(),
             body: ground.body(),
-            radius_m: ground.radius_m(),
             gears: self.problem.gears(),
-            cost: &self.parameters.cost,
+            end: Some(self.problem.region()),
+            cost: &self.cost,
             soft: soft.is_some().then_some(&price),
         };
         let thorough = &self.parameters.improve;
@@ -106,21 +109,28 @@ impl Best<'_> {
             hybrid,
         }) = first.stage
         else {
-            return Ok(());
+            let least_m = self.query.problem.least_curve_m(&self.query.cost);
+            if first.is_mended || self.summed_m() < GOOD_RATIO * least_m {
+                return Ok(());
+            }
+            return self.search_by_full_cost(limits).map(|_| ());
         };
         let start = problem.starts().first().map(|pose| pose.position());
         let least_m = start.and_then(|start| guide.estimate_m(&problem, start));
-        let is_good = |cost_m: f64| least_m.is_some_and(|least_m| cost_m < GOOD_RATIO * least_m);
+        let is_good = |best: &Self| least_m.is_some_and(|m| best.summed_m() < GOOD_RATIO * m);
         if let Some(mut hybrid) = hybrid {
-            let doubts = if is_good(self.cost_m) { 1 } else { MORE_STEPS };
+            let doubts = if is_good(self) { 1 } else { MORE_STEPS };
             match hybrid.run(&mut guide, doubts * rules.config.second_steps, limits) {
                 Ok(Some(path)) => self.offer(path, limits)?,
                 Ok(None) | Err(Status::NoPath) => {}
                 Err(status) => return Err(status),
             }
         }
+        if is_good(self) || self.search_by_full_cost(limits)? {
+            return Ok(());
+        }
         let sends_none = rules.config.n_stalled == 0 || rules.config.n_ants == 0;
-        if is_good(self.cost_m) || sends_none || problem.side() == Side::Goal {
+        if is_good(self) || sends_none || problem.side() == Side::Goal {
             return Ok(());
         }
         let ants = (rules.seed, rules.n_threads);
@@ -128,6 +138,14 @@ impl Best<'_> {
             self.send_ants(colony, rules.config.n_stalled, limits)
         });
         ended
+    }
+
+    /// The cost of the best path without the price of its least clearance: what can be compared
+    /// with a length.
+    fn summed_m(&self) -> f64 {
+        let (start, arcs) = &self.path;
+        let cost = self.query.cost.without_least_clearance();
+        self.query.path_m(&cost, *start, arcs)
     }
 
     /// With soft costs, offers a path that hybrid A* finds by them: local search alone would not
@@ -143,6 +161,25 @@ impl Best<'_> {
             Err(status @ (Status::TimedOut | Status::Cancelled)) => Err(status),
             Err(_) => Ok(()),
         }
+    }
+
+    /// Offers the paths that hybrid A* finds from either end by the whole cost: the first path may
+    /// be a maneuver that local search does not leave. Returns whether there were any.
+    fn search_by_full_cost(&mut self, limits: &mut Limits) -> Result<bool, Status> {
+        let mut is_found = false;
+        let whole = self.query.problem.at_full_cost();
+        for problem in [whole.swapped(), Some(whole)].into_iter().flatten() {
+            let found = limits.within(FULL_COST_STEPS, |limits| hybrid_astar(&problem, limits));
+            match found {
+                Ok(path) => {
+                    is_found = true;
+                    self.offer(path, limits)?;
+                }
+                Err(status @ (Status::TimedOut | Status::Cancelled)) => return Err(status),
+                Err(_) => {}
+            }
+        }
+        Ok(is_found)
     }
 
     /// Sends focused ants until so many generations gained nothing.
@@ -171,9 +208,8 @@ impl Best<'_> {
 
     /// Improves a path, and keeps it where it is the cheapest.
     fn offer(&mut self, (start, arcs): Driven, limits: &mut Limits) -> Result<(), Status> {
-        let length_m = |arcs: &[Arc]| arcs.iter().map(|arc| arc.length_m()).sum::<f64>();
-        let is_long = length_m(&arcs) > WORTH_RATIO * length_m(&self.path.1);
-        if self.cost_m.is_finite() && is_long && self.query.task.soft_costs().is_none() {
+        let is_dear = self.query.cost.open_path_m(&arcs) > WORTH_RATIO * self.cost_m;
+        if self.cost_m.is_finite() && is_dear && self.query.task.soft_costs().is_none() {
             return Ok(());
         }
         let seed = self.next_seed();

@@ -7,9 +7,8 @@ impl DriveProblem<'_> {
     /// Cost of a motion after another, given the cost factor at its end.
     pub(super) fn cost(&self, before: Arc, arc: Arc, dearness: f64) -> f64 {
         let [before, arc] = [before, arc].map(|arc| self.as_driven(arc));
-        let radius_m = self.map.radius_m();
-        let rate = self.cost.rate_after(before, arc, radius_m);
-        self.cost.joint_m(before, arc, radius_m) + arc.length_m() * rate * dearness
+        let rate = self.cost.rate_after(before, arc);
+        self.cost.joint_m(before, arc) + arc.length_m() * rate * dearness
     }
 
     /// Cost factor on lengths at a position: by clearance and by soft costs.
