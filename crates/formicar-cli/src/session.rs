@@ -78,9 +78,9 @@ impl Session {
         let asked = request.as_ref().ok().cloned();
         let result = request.and_then(|request| self.planner.plan(&request, seed, &mut watch));
         let clock = watch.0;
-        let ground = &self.scene.ground;
+        let blocked = &self.scene.blocked;
         let result = result.map_err(|error| match error {
-            PlanError::Scenario(error) => PlanError::Scenario(ground.named(error)),
+            PlanError::Scenario(error) => PlanError::Scenario(blocked.named(error)),
             error => error,
         });
         let result = result.map(|outcome| match (outcome, &asked) {
@@ -110,8 +110,8 @@ impl Session {
             (failure.status, cell(request.start), cell(request.goal))
         {
             let vehicle = &self.scene.vehicle.vehicle;
-            let ground = &self.scene.ground;
-            if let Some(hint) = ground.hint(&failure.explanation, vehicle, [from, to]) {
+            let blocked = &self.scene.blocked;
+            if let Some(hint) = blocked.hint(&failure.explanation, vehicle, [from, to]) {
                 failure.reason = format!("{}; hint: {hint}", failure.reason);
             }
         }

@@ -94,12 +94,9 @@ fn cookie(headers: &HeaderMap, uri: &Uri, token: &str) -> Option<HeaderValue> {
     }
     let host = headers.get(HOST).and_then(|host| host.to_str().ok())?;
     let port = host.rsplit_once(':').map_or("", |(_, port)| port);
-    let port = port
-        .bytes()
-        .all(|byte| byte.is_ascii_digit())
-        .then_some(port);
-    let name = format!("{COOKIE_NAME}{}", port.unwrap_or_default());
-    let value = format!("{name}={token}; Path=/; HttpOnly; SameSite=Strict");
+    let is_port = port.bytes().all(|byte| byte.is_ascii_digit());
+    let port = if is_port { port } else { "" };
+    let value = format!("{COOKIE_NAME}{port}={token}; Path=/; HttpOnly; SameSite=Strict");
     HeaderValue::try_from(value).ok()
 }
 

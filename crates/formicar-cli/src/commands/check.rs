@@ -2,6 +2,7 @@
 #![allow(clippy::doc_markdown, reason = "clap prints these words as they stand")]
 
 use crate::failure::{Ending, Failure};
+use crate::output::print_json;
 use crate::path_file::{self, PathFile, Source};
 use crate::scene::{self, Scene, SceneArgs};
 use crate::summary::{clearance, curvature};
@@ -80,8 +81,7 @@ pub(crate) fn run(args: &CheckArgs, out: &mut impl Write) -> Result<Ending, Fail
     let file = path_file::read(&args.path, vehicle)?;
     let checked = check(&file, &scene);
     if args.json {
-        serde_json::to_writer(&mut *out, &checked).map_err(io::Error::from)?;
-        writeln!(out)?;
+        print_json(out, &checked)?;
     } else {
         explain(&checked, vehicle, args, out)?;
     }

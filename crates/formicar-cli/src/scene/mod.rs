@@ -1,23 +1,22 @@
 //! The scene of a command: a map, a vehicle, and the start and goal that come with them.
 
 mod args;
-mod ground;
+mod blocked;
 mod scenario_file;
 mod vehicle;
 
 pub(crate) use args::SceneArgs;
-pub(crate) use ground::Ground;
+pub(crate) use blocked::Blocked;
 pub(crate) use scenario_file::{Loaded, ScenarioFile};
 #[cfg(feature = "lab")]
 pub(crate) use vehicle::by_name as vehicle;
 
-use crate::failure::note;
 use anyhow::{Result, bail};
 use args::Polygon;
 use formicar::geometry::Pose2;
 use formicar::map::builtin::BuiltinMap;
 use formicar::map::format::{MapFile, ReadOptions};
-use formicar::map::{OCCUPIED, OccupancyGrid, UnknownPolicy};
+use formicar::map::{OccupancyGrid, UnknownPolicy};
 use formicar::planner::MapRecord;
 use std::path::Path;
 use vehicle::NamedVehicle;
@@ -30,8 +29,8 @@ const DEFAULT_VEHICLE: &str = "warehouse_amr";
 pub(crate) struct Scene {
     /// The map; unknown cells are decided and keep-out areas filled.
     pub(crate) map: OccupancyGrid,
-    /// What blocks cells that are no obstacles.
-    pub(crate) ground: Ground,
+    /// What of the map blocks besides obstacles.
+    pub(crate) blocked: Blocked,
     /// Where the map comes from and what the flags changed on it.
     pub(crate) record: MapRecord,
     /// The vehicle, with its margin.
@@ -45,19 +44,15 @@ pub(crate) fn load(args: &SceneArgs) -> Result<Scene> {
     // The vehicle first: it is quick to refuse.
     let asked = args.vehicle.as_deref().map(vehicle::by_name).transpose()?;
     let loaded = find(args)?;
+    loaded.note_warnings();
     let fallback = || vehicle::by_name(DEFAULT_VEHICLE);
     let mut vehicle = asked.or(loaded.vehicle).map_or_else(fallback, Ok)?;
     if let Some(margin_m) = args.margin {
         vehicle.vehicle = vehicle.vehicle.with_safety_margin(margin_m)?;
     }
-    for warning in &loaded.warnings {
-        note(&format!("warning: {}: {warning}", loaded.name));
-    }
-    let ground = Ground::new(&loaded.map, args);
+    let blocked = Blocked::new(&loaded.map, args);
     let mut map = loaded.map.with_unknown(args.unknown);
-    for area in &args.keep_out {
-        map.fill_polygon(&area.0, OCCUPIED);
-    }
+    blocked::close(&mut map, &args.keep_out);
     let corners = |area: &Polygon| area.0.iter().map(|p| [p.x, p.y]).collect();
     let record = MapRecord {
         name: loaded.name,
@@ -72,7 +67,7 @@ pub(crate) fn load(args: &SceneArgs) -> Result<Scene> {
     };
     Ok(Scene {
         map,
-        ground,
+        blocked,
         record,
         vehicle,
         ends: loaded.ends,

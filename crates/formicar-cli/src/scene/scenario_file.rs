@@ -1,6 +1,7 @@
 //! Scenario files: car scenarios and TPCAP cases.
 
 use super::vehicle::NamedVehicle;
+use crate::failure::note;
 use anyhow::{Context, Result, bail};
 use formicar::geometry::Pose2;
 use formicar::map::OccupancyGrid;
@@ -18,6 +19,15 @@ pub(crate) struct Loaded {
     pub(crate) vehicle: Option<NamedVehicle>,
     /// Start and goal.
     pub(crate) ends: Option<[Pose2; 2]>,
+}
+
+impl Loaded {
+    /// Tells the user the doubts about the file.
+    pub(crate) fn note_warnings(&self) {
+        for warning in &self.warnings {
+            note(&format!("warning: {}: {warning}", self.name));
+        }
+    }
 }
 
 /// A scenario file.

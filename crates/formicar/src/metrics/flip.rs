@@ -7,7 +7,7 @@ use crate::map::{Cell, CellRegion, Components, Connectivity};
 use crate::path::CurvePath;
 
 /// Heading differences, meters per radian, when looking for where the new path leaves the old one.
-const METRES_PER_RAD: f64 = 1.0;
+const METERS_PER_RAD: f64 = 1.0;
 /// Paths are drawn in steps of at most so many cells.
 const SPACING_CELLS: f64 = 0.5;
 
@@ -22,7 +22,7 @@ const SPACING_CELLS: f64 = 0.5;
 pub fn flip(old: &CurvePath, new: &CurvePath, obstacles: &ObstacleMap) -> bool {
     let frame = obstacles.frame();
     let spacing_m = SPACING_CELLS * frame.resolution_m();
-    let behind_m = old.nearest_m(new.start(), METRES_PER_RAD, spacing_m);
+    let behind_m = old.nearest_m(new.start(), METERS_PER_RAD, spacing_m);
     let ahead = old.between_m(behind_m, old.length_m());
     let [old, new] = [&ahead, new].map(|path| in_cells(path, obstacles));
     let Some(region) = box_about(&[&old, &new], frame.n_cols(), frame.n_rows()) else {

@@ -1,6 +1,6 @@
 //! One run of the demo before it is carried out: plain data.
 
-use crate::scene::{self, Ground, Scene};
+use crate::scene::{self, Blocked, Scene};
 use anyhow::Result;
 use formicar::geometry::{Point2, Pose2};
 use formicar::map::builtin::{BuiltinKind, BuiltinMap};
@@ -123,7 +123,7 @@ impl Case {
         }
         Ok(Scene {
             map,
-            ground: Ground::default(),
+            blocked: Blocked::default(),
             record: MapRecord {
                 name: self.map.name.to_owned(),
                 unknown: "occupied".to_owned(),

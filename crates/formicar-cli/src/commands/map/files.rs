@@ -1,7 +1,6 @@
 //! The map files that the commands of `map` read and write.
 
 use super::args::MapSource;
-use crate::failure::note;
 use crate::scene::{self, Loaded, SceneArgs};
 use anyhow::{Result, bail};
 use formicar::map::OccupancyGrid;
@@ -11,9 +10,7 @@ use std::path::Path;
 /// A map file or a built-in map, unchanged; its warnings go to stderr.
 pub(super) fn read(source: &MapSource) -> Result<OccupancyGrid> {
     let loaded = load(source)?;
-    for warning in &loaded.warnings {
-        note(&format!("warning: {}: {warning}", loaded.name));
-    }
+    loaded.note_warnings();
     Ok(loaded.map)
 }
 

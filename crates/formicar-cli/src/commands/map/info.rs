@@ -3,10 +3,12 @@
 use super::args::InfoArgs;
 use super::files;
 use crate::failure::{Ending, Failure};
+use crate::output::print_json;
+use crate::scene::Loaded;
 use formicar::collision::{Body, ObstacleMap};
 use formicar::geometry::{Point2, Pose2};
+use formicar::map::UNKNOWN;
 use formicar::map::{Cell, Components, Connectivity, DistanceField, FREE, GridFrame, OCCUPIED};
-use formicar::map::{OccupancyGrid, UNKNOWN};
 use formicar::vehicle::Vehicle;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -52,20 +54,17 @@ struct Widest {
 /// Carries out `map info`.
 pub(super) fn run(args: &InfoArgs, out: &mut impl Write) -> Result<Ending, Failure> {
     let loaded = files::load(&args.source)?;
-    let info = Info {
-        warnings: loaded.warnings,
-        ..describe(&args.source.map, loaded.map, args)
-    };
+    let info = describe(loaded, args);
     if args.json {
-        serde_json::to_writer(&mut *out, &info).map_err(io::Error::from)?;
-        writeln!(out)?;
+        print_json(out, &info)?;
     } else {
         explain(&info, out)?;
     }
     Ok(Ending::Done)
 }
 
-fn describe(name: &str, grid: OccupancyGrid, args: &InfoArgs) -> Info {
+fn describe(loaded: Loaded, args: &InfoArgs) -> Info {
+    let grid = loaded.map;
     let frame = *grid.frame();
     let count = |value: i8| grid.values().iter().filter(|v| **v == value).count();
     let [n_free, n_occupied, n_unknown] = [FREE, OCCUPIED, UNKNOWN].map(count);
@@ -76,7 +75,7 @@ fn describe(name: &str, grid: OccupancyGrid, args: &InfoArgs) -> Info {
     let (origin, extent) = (frame.origin(), frame.extent_m());
     Info {
         schema: "formicar/map-info/1",
-        map: name.to_owned(),
+        map: args.source.map.clone(),
         n_cols: frame.n_cols(),
         n_rows: frame.n_rows(),
         resolution_m: frame.resolution_m(),
@@ -91,7 +90,7 @@ fn describe(name: &str, grid: OccupancyGrid, args: &InfoArgs) -> Info {
         largest_component_cells,
         largest_component_m2: f64::from(largest_component_cells) * frame.resolution_m().powi(2),
         widest: widest(&obstacles),
-        warnings: Vec::new(),
+        warnings: loaded.warnings,
     }
 }
 

@@ -1,16 +1,15 @@
 //! Cells that block though they are no obstacles: unknown ones, and those of keep-out areas.
 
-use super::SceneArgs;
+use super::args::{Polygon, SceneArgs};
 use formicar::map::{Cell, DistanceField, OCCUPIED, OccupancyGrid, UNKNOWN, UnknownPolicy};
 use formicar::planner::Explanation;
 use formicar::scenario::ScenarioError;
 use formicar::search::widest_passage;
 use formicar::vehicle::Vehicle;
 
-/// The map with unknown cells and keep-out areas told apart from obstacles; empty where flags and
-/// file leave nothing to tell.
+/// What blocks besides obstacles; empty where flags and file leave nothing to tell apart.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Ground {
+pub(crate) struct Blocked {
     /// The map as its file has it, where its unknown cells block.
     unknown: Option<OccupancyGrid>,
     /// The keep-out areas as occupied cells of a map that is free otherwise.
@@ -25,15 +24,13 @@ enum Kind {
     KeepOut,
 }
 
-impl Ground {
-    /// The ground of a map as its file has it.
+impl Blocked {
+    /// Of a map as its file has it.
     pub(super) fn new(map: &OccupancyGrid, args: &SceneArgs) -> Self {
         let blocks = args.unknown == UnknownPolicy::Occupied && map.values().contains(&UNKNOWN);
         let keep_out = (!args.keep_out.is_empty()).then(|| {
             let mut closed = OccupancyGrid::free(*map.frame());
-            for area in &args.keep_out {
-                closed.fill_polygon(&area.0, OCCUPIED);
-            }
+            close(&mut closed, &args.keep_out);
             closed
         });
         Self {
@@ -129,6 +126,13 @@ impl Ground {
                 "{n_unknown} cells of the map are unknown and count as occupied; --unknown free drives on them, and a way is wide enough then"
             )
         })
+    }
+}
+
+/// Fills keep-out areas.
+pub(super) fn close(map: &mut OccupancyGrid, areas: &[Polygon]) {
+    for area in areas {
+        map.fill_polygon(&area.0, OCCUPIED);
     }
 }
 
