@@ -45,6 +45,7 @@ pub const CLI: &[&str] = &[
     "summary",
     "session",
     "commands",
+    "reading",
     "cli",
 ];
 
