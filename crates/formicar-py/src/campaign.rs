@@ -10,7 +10,7 @@ use formicar::planner::{MapRecord, PlannerConfig, VehicleRecord};
 use formicar::vehicle::{Motion, Vehicle};
 use formicar_cli::reading;
 use formicar_lab::analysis::Summary;
-use formicar_lab::campaign::{Campaign, MeasuredBy, Sink, Store, csv_beside};
+use formicar_lab::campaign::{Campaign, Document, MeasuredBy, Sink, Store, Text, csv_beside};
 use formicar_lab::run::{
     Begun, Contender, Job, LoadedScenario, Run, RunRecord, Sources, Task, carry_out, usage,
 };
@@ -20,7 +20,7 @@ use pyo3::types::PyBytes;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::io::{Read, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use xxhash_rust::xxh3::xxh3_128;
 
@@ -63,13 +63,8 @@ impl CampaignStore {
     fn new(campaign: PathBuf, store: PathBuf, py: Python<'_>) -> PyResult<Self> {
         let open = || -> Result<Self> {
             let csv = csv_beside(&store)?;
+            refuse_rivals(&campaign)?;
             let campaign = reading::campaign(&campaign)?;
-            let rivals = campaign.runs.iter().map(|run| &run.job.contender);
-            if let Some(rival) = rivals.filter(|c| c.rival.is_some()).map(|c| &c.name).next() {
-                bail!(
-                    "the planner {rival:?} is a program of this machine, which others do not have; hint: formicar bench runs it here"
-                );
-            }
             let store = Store::open(&store, &campaign, env!("CARGO_PKG_VERSION"))?;
             Ok(Self {
                 campaign,
@@ -174,6 +169,18 @@ impl CampaignStore {
     fn close(&self) {
         drop(lock(&self.store).take());
     }
+}
+
+/// Refuses a campaign with a planner from outside, before that is started.
+fn refuse_rivals(campaign: &Path) -> Result<()> {
+    let name = campaign.display().to_string();
+    let text = std::fs::read_to_string(campaign).with_context(|| name.clone())?;
+    let document = Document::read(Text { name, text })?;
+    let rival = document.planners.iter().find(|p| p.command.is_some());
+    let Some(rival) = rival else { return Ok(()) };
+    let hint = "is a program of this machine, which others do not have; hint: formicar bench";
+    let what = format!("the planner {:?} {hint}", rival.name.get_ref());
+    Err(document.text.mistake(Some(rival.name.span()), what))
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {

@@ -4,7 +4,7 @@ use crate::grid::Grid;
 use crate::vehicle::Car;
 use formicar::geometry::{Point2, Pose2};
 use formicar::map::{GridFrame, OccupancyGrid};
-use formicar::render::{Layout, Picture, PoseMark, Scene};
+use formicar::render::{Dash, Layout, LineStyle, Picture, Scene, palette};
 use formicar::vehicle::Motion;
 use pyo3::prelude::*;
 
@@ -47,8 +47,22 @@ pub(crate) fn vehicle_svg(car: &Car, title: &str) -> PyResult<String> {
     let floor = OccupancyGrid::free(frame.map_err(crate::errors::map)?);
     let mut scene = Scene::new(&floor);
     if car.vehicle.motion() == Motion::Car {
-        scene.pose(Pose2::default(), &car.vehicle, PoseMark::Start);
+        let corners = car.vehicle.footprint().corners();
+        let outline: Vec<_> = corners.iter().chain(corners.first()).copied().collect();
+        scene.polyline(
+            &outline,
+            &LineStyle {
+                label: "body".to_owned(),
+                color: palette::FORWARD,
+                width_px: 2.0,
+                dash: Dash::Solid,
+            },
+        );
+        if let Some(wheelbase_m) = car.vehicle.wheelbase_m() {
+            scene.point(Point2::new(wheelbase_m, 0.0), "front axle");
+        }
     }
+    scene.point(Point2::default(), "rear axle");
     Ok(picture(scene, title).to_svg())
 }
 

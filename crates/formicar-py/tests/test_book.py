@@ -81,3 +81,17 @@ def test_docstrings_show_what_happens(name: str) -> None:
 def test_the_docstring_of_the_package_is_an_example() -> None:
     result = doctest.testmod(formicar, optionflags=doctest.NORMALIZE_WHITESPACE)
     assert result.failed == 0 and result.attempted > 5
+
+
+def test_the_notebook_runs_and_shows_its_pictures(tmp_path: Path) -> None:
+    import nbformat
+    from nbclient import NotebookClient
+
+    notebook = nbformat.read(ROOT / "crates/formicar-py/examples/formicar.ipynb", as_version=4)  # type: ignore[no-untyped-call]
+    assert not [output for cell in notebook.cells for output in cell.get("outputs", [])]
+    NotebookClient(notebook, timeout=120, resources={"metadata": {"path": tmp_path}}).execute()
+    outputs = [output for cell in notebook.cells for output in cell.get("outputs", [])]
+    assert not [output for output in outputs if output["output_type"] == "error"]
+    kinds = [kind for output in outputs for kind in output.get("data", {})]
+    assert kinds.count("image/png") == 3 and kinds.count("image/svg+xml") == 3
+    assert kinds.count("text/html") == 2

@@ -66,7 +66,7 @@ def test_without_a_path_a_plan_is_false_and_explains_itself() -> None:
 def test_a_gap_is_named(planner: Planner) -> None:
     walls = planner.map.data == 100
     walls[50:76, 60] = True
-    tight = Planner(OccupancyGrid(walls, 0.1), "warehouse_amr").plan(START, GOAL)
+    tight = Planner(OccupancyGrid(walls, 0.1), "warehouse_amr").plan(START, GOAL, budget=20_000)
     assert not tight and tight.explanation
     assert tight.explanation.gap or tight.explanation.disconnected
 

@@ -266,7 +266,7 @@ class OccupancyGrid:
         )
 
     def _repr_svg_(self) -> str:
-        return _formicar.grid_svg(self._core, self.name)
+        return _formicar.grid_svg(self._core, repr(self))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, OccupancyGrid):

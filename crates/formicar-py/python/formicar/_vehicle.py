@@ -171,7 +171,7 @@ class Vehicle:
         return f"Vehicle({', '.join(parts)})"
 
     def _repr_svg_(self) -> str:
-        return _formicar.vehicle_svg(self._core, self.name)
+        return _formicar.vehicle_svg(self._core, repr(self))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Vehicle):
