@@ -51,6 +51,13 @@ impl Grid {
         Self::new(map, record)
     }
 
+    /// The map of a file, with doubts about it.
+    pub(crate) fn of_file(file: MapFile, name: &str) -> Self {
+        let mut grid = Self::named(file.grid, name);
+        grid.record.warnings = file.warnings.iter().map(ToString::to_string).collect();
+        grid
+    }
+
     /// The map as judge and planners take it.
     pub(crate) fn obstacles(&self) -> Arc<ObstacleMap> {
         let prepared = self
@@ -122,9 +129,7 @@ impl Grid {
         };
         let read = py.detach(|| MapFile::read(&path, &options));
         let file = read.map_err(|error| errors::file(&path, errors::map(error)))?;
-        let mut grid = Self::named(file.grid, &path.display().to_string());
-        grid.record.warnings = file.warnings.iter().map(ToString::to_string).collect();
-        Ok(grid)
+        Ok(Self::of_file(file, &path.display().to_string()))
     }
 
     /// A built-in map.

@@ -14,6 +14,7 @@ mod path;
 mod pictures;
 mod plan;
 mod planner;
+mod scenarios;
 mod values;
 mod vehicle;
 
@@ -74,6 +75,8 @@ mod _formicar {
     use crate::plan::Plan;
     #[pymodule_export]
     use crate::planner::{Planner, config_keys, planners, read_config};
+    #[pymodule_export]
+    use crate::scenarios::load_scenarios;
     #[pymodule_export]
     use crate::vehicle::{Car, vehicle_keys};
 

@@ -13,7 +13,8 @@ from hypothesis import settings
 import formicar
 
 # The same cases every time, so that a green tree stays green.
-settings.register_profile("formicar", derandomize=True, deadline=None, max_examples=60)
+N_EXAMPLES = int(os.environ.get("FORMICAR_EXAMPLES", "60"))
+settings.register_profile("formicar", derandomize=True, deadline=None, max_examples=N_EXAMPLES)
 settings.load_profile("formicar")
 
 

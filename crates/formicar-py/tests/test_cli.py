@@ -68,6 +68,10 @@ def test_the_same_words_for_the_same_faults(program: Path) -> None:
         assert str(raised.value) in told.stderr
 
 
+def test_the_same_version(program: Path) -> None:
+    assert run(program, "--version").stdout == f"formicar {formicar.__version__}\n"
+
+
 def test_the_same_list_of_planners(program: Path) -> None:
     listed = run(program, "list", "planners").stdout
     assert all(f"{name} " in listed for name in formicar.planners())

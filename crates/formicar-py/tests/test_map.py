@@ -192,3 +192,30 @@ def test_equal_maps_are_equal_also_from_elsewhere() -> None:
     assert grid != OccupancyGrid([[False, False]], 0.5)
     assert (grid == 3) is False
     assert repr(other) == "OccupancyGrid(1 rows x 2 columns, 0.5 m per cell, 1 x 0.5 m, 1 occupied)"
+
+
+SCENARIOS = """{"version": 1, "scenarios": [
+  {"id": "a", "map": "m.txt", "resolution": 1.0, "start": [3.0, 5.0, 0.0], "goal": [15.0, 5.0, 0.0],
+   "vehicle": {"wheelbase": 1.0, "max_steer_deg": 40.0, "length": 1.6, "width": 0.8,
+               "rear_overhang": 0.3, "front_overhang": 0.3}},
+  {"id": "b", "map": "m.txt", "resolution": 1.0, "start": [3.0, 5.0, 0.0], "goal": [3.0, 7.0, 3.0],
+   "vehicle": {"wheelbase": 1.0, "max_steer_deg": 40.0, "length": 1.6, "width": 0.8,
+               "rear_overhang": 0.3, "front_overhang": 0.3}}
+]}"""
+
+
+def test_scenario_files_bring_map_vehicle_and_ends(tmp_path: Path) -> None:
+    OccupancyGrid(np.zeros((10, 20), dtype=bool), 1.0).save(tmp_path / "m.txt")
+    (tmp_path / "cars.json").write_text(SCENARIOS)
+    scenarios = formicar.load_scenarios(tmp_path / "cars.json")
+    assert list(scenarios) == ["a", "b"] and scenarios["a"].map == scenarios["b"].map
+    for scenario in scenarios.values():
+        grid, vehicle, start, goal = scenario
+        assert formicar.Planner(grid, vehicle).plan(start, goal)
+    with pytest.raises(FileNotFoundError):
+        formicar.load_scenarios(tmp_path / "none.json")
+    with pytest.raises(InvalidMap, match="TPCAP"):
+        formicar.load_scenarios(tmp_path / "m.txt")
+    (tmp_path / "bad.json").write_text("{")
+    with pytest.raises(InvalidMap, match=r"bad\.json"):
+        formicar.load_scenarios(tmp_path / "bad.json")

@@ -38,6 +38,7 @@ from ._paths import Check, check, metrics
 from ._plan import AntFrame, History, NoPath, Plan
 from ._planner import Planner, parameters, planners
 from ._records import Certificate, Disconnected, Explanation, Gap, Metrics, Timing, Violation
+from ._scenarios import Scenario, load_scenarios
 from ._track import Tracking, track
 from ._tune import Choice, Integer, Real, Tuning, tune
 from ._vehicle import Vehicle
@@ -66,6 +67,7 @@ __all__ = [
     "Planner",
     "Real",
     "ReedsShepp",
+    "Scenario",
     "Timing",
     "Tracking",
     "Tuning",
@@ -74,6 +76,7 @@ __all__ = [
     "__version__",
     "builtin_maps",
     "check",
+    "load_scenarios",
     "metrics",
     "parameters",
     "planners",

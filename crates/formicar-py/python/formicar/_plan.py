@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from . import _formicar
 from ._arrays import frozen, table_of
@@ -31,8 +29,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-@dataclass(frozen=True, slots=True)
-class History:
+class History(NamedTuple):
     """The course of a query.
 
     Attributes
@@ -51,8 +48,7 @@ class History:
     iterations: NDArray[np.void]
 
 
-@dataclass(frozen=True, slots=True)
-class AntFrame:
+class AntFrame(NamedTuple):
     """An iteration of a colony, as far as it is kept.
 
     Attributes
@@ -256,6 +252,8 @@ class Plan:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the answer document as the command line writes it."""
+        import json
+
         return dict(json.loads(self._core.to_json()))
 
     def to_json(self) -> str:

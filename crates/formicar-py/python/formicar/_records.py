@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import MISSING, dataclass, fields
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
-Record = TypeVar("Record")
+Record = TypeVar("Record", bound="tuple[Any, ...]")
 Pose = tuple[float, float, float]
 
 
 def record_of(kind: type[Record], document: Mapping[str, Any]) -> Record:
     """Make a record from a document whose keys are its fields; a key left out is ``None``."""
-    members = {}
-    for field in fields(kind):  # type: ignore[arg-type]
-        if field.name in document:
-            members[field.name] = document[field.name]
-        elif field.default is MISSING and field.default_factory is MISSING:
-            members[field.name] = None
-    return kind(**members)
+    made: Record = kind._make(document.get(name) for name in kind._fields)  # type: ignore[attr-defined]
+    return made
 
 
 def pose_of(document: Mapping[str, float]) -> Pose:
@@ -26,8 +20,7 @@ def pose_of(document: Mapping[str, float]) -> Pose:
     return (document["x"], document["y"], document["heading"])
 
 
-@dataclass(frozen=True, slots=True)
-class Violation:
+class Violation(NamedTuple):
     """A violation on a path.
 
     Attributes
@@ -53,8 +46,7 @@ class Violation:
     message: str
 
 
-@dataclass(frozen=True, slots=True)
-class Certificate:
+class Certificate(NamedTuple):
     """The judge's findings on a path.
 
     Attributes
@@ -126,8 +118,7 @@ def violation_of(document: Mapping[str, Any]) -> Violation:
     return record_of(Violation, {**document, "pose": pose_of(document["pose"])})
 
 
-@dataclass(frozen=True, slots=True)
-class Metrics:
+class Metrics(NamedTuple):
     """Exact metrics of a path, computed from its segments.
 
     Attributes
@@ -180,8 +171,7 @@ class Metrics:
     compatible: dict[str, float] | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Gap:
+class Gap(NamedTuple):
     """The narrowest place on the widest way from start to goal.
 
     Attributes
@@ -200,8 +190,7 @@ class Gap:
     vehicle_width_m: float
 
 
-@dataclass(frozen=True, slots=True)
-class Disconnected:
+class Disconnected(NamedTuple):
     """Start and goal in parts of the map that are not connected for the vehicle's rear axle.
 
     Attributes
@@ -217,8 +206,7 @@ class Disconnected:
     n_cells_at_goal: int
 
 
-@dataclass(frozen=True, slots=True)
-class Explanation:
+class Explanation(NamedTuple):
     """Why there is no path, in places and measures, as far as it is known.
 
     Attributes
@@ -246,8 +234,7 @@ def explanation_of(document: Mapping[str, Any]) -> Explanation:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class Timing:
+class Timing(NamedTuple):
     """Times of a query in seconds.
 
     Attributes

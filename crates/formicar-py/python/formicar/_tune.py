@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _formicar
 from ._arrays import frozen
@@ -15,8 +14,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-@dataclass(frozen=True, slots=True)
-class Real:
+class Real(NamedTuple):
     """Numbers from `low` to `high`; with `log`, equal ratios are equally far."""
 
     low: float
@@ -34,8 +32,7 @@ class Real:
         return float(value)
 
 
-@dataclass(frozen=True, slots=True)
-class Integer:
+class Integer(NamedTuple):
     """Integers from `low` to `high`, both included; with `log`, equal ratios are equally far."""
 
     low: int
@@ -53,8 +50,7 @@ class Integer:
         return float(value)
 
 
-@dataclass(frozen=True, slots=True)
-class Choice:
+class Choice(NamedTuple):
     """One of some values."""
 
     values: Sequence[Any]
@@ -71,8 +67,7 @@ class Choice:
         return float(list(self.values).index(value))
 
 
-@dataclass(frozen=True, slots=True)
-class Tuning:
+class Tuning(NamedTuple):
     """The result of a search.
 
     Attributes

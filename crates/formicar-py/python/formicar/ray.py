@@ -26,9 +26,8 @@ import tempfile
 import time
 from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _formicar
 from ._tune import Tuning, _dimension, search
@@ -54,8 +53,7 @@ module.carry_out_parcel(sys.argv[2])
 """
 
 
-@dataclass(frozen=True, slots=True)
-class Bench:
+class Bench(NamedTuple):
     """What `bench` has done.
 
     Attributes
