@@ -84,6 +84,24 @@ pub const STUDIO: &[&str] = &[
     "routes",
 ];
 
+/// The compiled part of the Python package.
+pub const PYTHON: &[&str] = &[
+    "errors",
+    "values",
+    "vehicle",
+    "grid",
+    "scenarios",
+    "pictures",
+    "observe",
+    "plan",
+    "planner",
+    "path",
+    "curves",
+    "drive",
+    "bees",
+    "campaign",
+];
+
 /// Paths to modules that a module may not use, modules without a rank, and ways around the list.
 pub fn rank_faults(source: &Crate, ranks: &[&str]) -> Vec<String> {
     let is_ranked = |name: &str| {
