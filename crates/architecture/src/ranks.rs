@@ -45,6 +45,7 @@ pub const CLI: &[&str] = &[
     "summary",
     "session",
     "commands",
+    "reading",
     "cli",
 ];
 
@@ -81,6 +82,24 @@ pub const STUDIO: &[&str] = &[
     "upload",
     "access",
     "routes",
+];
+
+/// The compiled part of the Python package.
+pub const PYTHON: &[&str] = &[
+    "errors",
+    "values",
+    "vehicle",
+    "grid",
+    "scenarios",
+    "pictures",
+    "observe",
+    "plan",
+    "planner",
+    "path",
+    "curves",
+    "drive",
+    "bees",
+    "campaign",
 ];
 
 /// Paths to modules that a module may not use, modules without a rank, and ways around the list.

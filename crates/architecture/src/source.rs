@@ -108,7 +108,8 @@ impl Crate {
         };
         let mut files: Vec<File> = files.into_iter().map(file).collect();
         files.sort_by(|a, b| a.name.cmp(&b.name));
-        let by_module = files.iter().enumerate();
+        // Of two roots, that of the library, which comes first by name, holds the modules.
+        let by_module = files.iter().enumerate().rev();
         let by_module = by_module
             .map(|(i, file)| (file.module.clone(), i))
             .collect();

@@ -1,7 +1,9 @@
 //! The checks on the crates of this workspace, and on faults planted in made-up ones.
 #![allow(clippy::unwrap_used, reason = "a test suite: its helpers may fail")]
 
-use crate::{CLI, Crate, LAB, LIBRARY, Purity, STUDIO, circles, purity_faults, rank_faults};
+use crate::{
+    CLI, Crate, LAB, LIBRARY, PYTHON, Purity, STUDIO, circles, purity_faults, rank_faults,
+};
 use std::fs;
 use std::path::Path;
 
@@ -32,6 +34,11 @@ fn modules_of_the_studio_use_only_modules_of_lower_rank() {
     report(&rank_faults(&Crate::read("formicar-studio"), STUDIO));
 }
 
+#[test]
+fn modules_of_the_python_package_use_only_modules_of_lower_rank() {
+    report(&rank_faults(&Crate::read("formicar-py"), PYTHON));
+}
+
 /// Parts of the library whose files still use each other in circles. The list only gets shorter.
 const OPEN: [&str; 3] = ["map/format/", "planner/", "scenario/"];
 
@@ -42,6 +49,7 @@ fn files_do_not_use_each_other_in_circles() {
         "formicar",
         "formicar-cli",
         "formicar-lab",
+        "formicar-py",
         "formicar-studio",
     ];
     let found = crates.iter().flat_map(|name| {

@@ -8,6 +8,7 @@ use crate::commands::{check, list, map, meta, plan, track};
 use crate::failure::{Ending, Failure};
 use crate::optional;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use std::ffi::OsString;
 use std::io::Write;
 
 const EXIT_CODES: &str = "\
@@ -23,13 +24,15 @@ pub(crate) struct Cli {
 }
 
 impl Cli {
-    /// Parses the arguments of the process.
+    /// Parses the words of a command, the first being the name of the program.
     ///
     /// # Errors
     /// Wrong usage, or a request for help or the version: the message to print.
-    pub(crate) fn from_process() -> Result<Self, clap::Error> {
+    pub(crate) fn from_words(
+        words: impl IntoIterator<Item = OsString>,
+    ) -> Result<Self, clap::Error> {
         let mut definition = Self::definition();
-        let matches = definition.try_get_matches_from_mut(std::env::args_os());
+        let matches = definition.try_get_matches_from_mut(words);
         let parsed = matches.and_then(|matches| Self::from_arg_matches(&matches));
         parsed.map_err(|error| optional::explain(error.format(&mut definition)))
     }

@@ -1,7 +1,6 @@
 //! The endings of a command and their exit codes.
 
 use std::io::{self, Write};
-use std::process::ExitCode;
 
 /// The ending of a command that was carried out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,14 +21,15 @@ pub(crate) enum Ending {
     Broken,
 }
 
-impl From<Ending> for ExitCode {
+/// The exit code of an ending.
+impl From<Ending> for u8 {
     fn from(ending: Ending) -> Self {
-        Self::from(match ending {
+        match ending {
             Ending::Done => 0,
             Ending::Broken => 1,
             Ending::Refused => 2,
             Ending::NoPath | Ending::Worse => 3,
-        })
+        }
     }
 }
 
@@ -44,16 +44,16 @@ pub(crate) enum Failure {
 
 impl Failure {
     /// Prints the message on stderr and returns the exit code. A closed pipe is no failure.
-    pub(crate) fn explain(&self) -> ExitCode {
+    pub(crate) fn explain(&self) -> u8 {
         let (text, code) = match self {
             Self::Input(error) => (format!("error: {error:#}"), 2),
             Self::Output(error) if error.kind() == io::ErrorKind::BrokenPipe => {
-                return ExitCode::SUCCESS;
+                return 0;
             }
             Self::Output(error) => (format!("error: the output cannot be written: {error}"), 1),
         };
         note(&text);
-        ExitCode::from(code)
+        code
     }
 }
 

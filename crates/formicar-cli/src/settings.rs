@@ -47,6 +47,19 @@ pub(crate) fn load(
     Ok(Settings { config, of_point })
 }
 
+/// The parameters of a table, of which every key is known, for a vehicle.
+pub(crate) fn of_table(mut table: Table, motion: Motion) -> Result<PlannerConfig> {
+    if let Some((_, error)) = unknown(&table) {
+        return Err(error);
+    }
+    if motion == Motion::Point && !table.contains_key("planner") {
+        table.insert("planner".to_owned(), PlannerName::Astar.name().into());
+    }
+    let config = typed(&table)?;
+    config.check()?;
+    Ok(config)
+}
+
 /// A table of a name, with single keys and the planner's name in it; what it comes to is checked.
 pub(crate) fn merge(
     mut table: Table,
@@ -134,7 +147,7 @@ fn value(text: &str) -> Value {
 }
 
 /// Every key that a configuration may have, dotted.
-fn known_keys() -> Vec<String> {
+pub(crate) fn known_keys() -> Vec<String> {
     let parameters = PlannerConfig::parameters().into_iter();
     let mut keys: Vec<String> = parameters.map(|parameter| parameter.key).collect();
     keys.dedup();

@@ -350,11 +350,15 @@ impl Observer for Watch {
 }
 
 #[test]
-fn deadline_and_cancel_are_seen_between_iterations() {
+fn deadline_and_cancel_are_seen_every_few_ants_and_cut_iterations_are_dropped() {
     let config = presets::wang2019();
     let problem = builtin_problem("wang-open", &config);
     let mut watch = Watch::default();
-    let mut limits = Limits::new(&mut watch, None, Some(Duration::from_secs(6)));
+    // A look before each iteration and after every eight of its ants, and two before the first:
+    // the deadline passes in the middle of the fourth.
+    let n_looks = u64::from(config.n_ants.div_ceil(8)) + 1;
+    let deadline = Duration::from_secs(2 + 3 * n_looks + n_looks / 2);
+    let mut limits = Limits::new(&mut watch, None, Some(deadline));
     let late = run(&problem, &config, Seed(1), 1, &mut limits).expect("a valid run");
     assert_eq!(
         (late.stop, late.history.iterations.len()),

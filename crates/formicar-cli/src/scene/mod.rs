@@ -8,7 +8,6 @@ mod vehicle;
 pub(crate) use args::SceneArgs;
 pub(crate) use blocked::Blocked;
 pub(crate) use scenario_file::{Loaded, ScenarioFile};
-#[cfg(feature = "lab")]
 pub(crate) use vehicle::by_name as vehicle;
 
 use anyhow::{Result, bail};

@@ -31,7 +31,8 @@ impl MeasuredBy {
         }
     }
 
-    fn origin(&self, run: &PlannedRun) -> Origin {
+    /// The origin of a run that it has measured.
+    pub fn origin(&self, run: &PlannedRun) -> Origin {
         let limits = &run.job.limits;
         Origin {
             vehicle: run.job.vehicle_name().to_owned(),

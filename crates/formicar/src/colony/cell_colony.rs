@@ -23,7 +23,7 @@ use std::sync::Arc;
 /// Runs a colony on a problem.
 ///
 /// Same problem, configuration and seed: same run, to the last bit, on any number of threads. A
-/// step of the limits is a step of an ant; deadline and cancel are looked at between iterations.
+/// step of the limits is a step of an ant; deadline and cancel are looked at every few ants.
 /// An iteration takes time in proportion to the cells that can be reached and to the steps walked.
 ///
 /// # Errors

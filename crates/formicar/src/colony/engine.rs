@@ -119,7 +119,15 @@ impl<C: Colony> Engine<C> {
         generation: &mut Generation<C::Cost>,
         limits: &mut Limits,
     ) -> Option<Stop> {
-        pool.walk(self.colony.prepare(iteration), iteration, generation);
+        let mut halted = None;
+        let shared = self.colony.prepare(iteration);
+        pool.walk_while(shared, iteration, generation, &mut || {
+            halted = limits.look().err();
+            halted.is_none()
+        });
+        if let Some(status) = halted {
+            return Some(Stop::of_limit(status));
+        }
         let n_steps = limits.take(generation.n_steps());
         let is_cut = n_steps < generation.n_steps();
         generation.keep_steps(n_steps);

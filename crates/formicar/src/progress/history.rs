@@ -60,6 +60,14 @@ impl Stop {
         }
     }
 
+    /// The reason of a run that the caller or the clock has ended.
+    pub(crate) fn of_limit(status: Status) -> Self {
+        match status {
+            Status::Cancelled => Self::Cancelled,
+            _ => Self::Deadline,
+        }
+    }
+
     /// The status of a run that stopped without a path.
     pub fn status(self) -> Status {
         match self {
@@ -81,10 +89,8 @@ pub(crate) fn iterate<E>(
     mut run_one: impl FnMut(u32, &mut Limits) -> Result<Option<Stop>, E>,
 ) -> Result<Stop, E> {
     for iteration in 0..n_iterations {
-        match limits.look() {
-            Err(Status::Cancelled) => return Ok(Stop::Cancelled),
-            Err(_) => return Ok(Stop::Deadline),
-            Ok(()) => {}
+        if let Err(status) = limits.look() {
+            return Ok(Stop::of_limit(status));
         }
         if let Some(stop) = run_one(iteration, limits)? {
             return Ok(stop);

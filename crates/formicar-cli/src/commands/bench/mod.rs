@@ -39,7 +39,7 @@ pub(crate) fn run(args: &BenchArgs, out: &mut impl Write) -> Result<Ending, Fail
 }
 
 /// The campaign of a file.
-pub(super) fn read_campaign(path: &Path) -> Result<Campaign> {
+pub(crate) fn read_campaign(path: &Path) -> Result<Campaign> {
     campaign::read(path)?.campaign(&Files)
 }
 

@@ -23,7 +23,7 @@ const NOTHING: f32 = 1e-30;
 /// Runs a colony that steps by chords.
 ///
 /// Same problem, configuration and seed: same run, to the last bit, on any number of threads. A
-/// step of the limits is a step of an ant; deadline and cancel are looked at between generations.
+/// step of the limits is a step of an ant; deadline and cancel are looked at every few ants.
 /// Set-up takes time in proportion to the cells of the map, a generation to the steps walked and
 /// to the cells of the corridor.
 ///

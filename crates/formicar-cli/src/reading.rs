@@ -1,0 +1,63 @@
+//! Configurations, vehicles and campaigns as this command reads them, for other front ends.
+
+#[cfg(feature = "lab")]
+use crate::commands::{bench, machine};
+use crate::{scene, settings};
+use anyhow::Result;
+use formicar::planner::PlannerConfig;
+use formicar::vehicle::{Motion, Vehicle};
+#[cfg(feature = "lab")]
+use formicar_lab::{campaign::Campaign, run::Sources};
+use std::path::Path;
+use toml::Table;
+
+/// The parameters of a planner from a table as in a configuration file. Without a planner's name it
+/// is that of the default planner or, for a point, of A*.
+///
+/// # Errors
+/// A key that no planner has, a value of another type, or one out of its range.
+pub fn planner_config(table: Table, motion: Motion) -> Result<PlannerConfig> {
+    settings::of_table(table, motion)
+}
+
+/// The table of a configuration file, whose keys are all known.
+///
+/// # Errors
+/// A file that cannot be read, is no TOML, or has a key that no planner has.
+pub fn planner_table(path: &Path) -> Result<Table> {
+    settings::read(path)
+}
+
+/// Every key that a configuration may have, dotted.
+pub fn planner_keys() -> Vec<String> {
+    settings::known_keys()
+}
+
+/// A built-in vehicle, or one from a `.toml` or `.json` file.
+///
+/// # Errors
+/// A name that no vehicle has, a file that cannot be read, or measures that cannot be.
+pub fn vehicle(name: &str) -> Result<Vehicle> {
+    Ok(scene::vehicle(name)?.vehicle)
+}
+
+/// The runs of a campaign file; names of files in it are relative to its folder.
+///
+/// # Errors
+/// What is wrong with the file, with line and column, or with a file that it names.
+#[cfg(feature = "lab")]
+pub fn campaign(path: &Path) -> Result<Campaign> {
+    bench::read_campaign(path)
+}
+
+/// Reads the built-in maps and files that the runs of a campaign name.
+#[cfg(feature = "lab")]
+pub fn sources() -> impl Sources {
+    bench::Files
+}
+
+/// This machine in a line, which tells machines apart as far as times go.
+#[cfg(feature = "lab")]
+pub fn machine() -> String {
+    machine::name()
+}
