@@ -259,7 +259,7 @@ fn parameters_come_from_file_and_flags() {
     let room = Room::new();
     room.write(
         "planner.toml",
-        "[hybrid_astar]\nweight = 2.0\nreverse_penalty = 3.0\n",
+        "[hybrid_astar]\nweight = 2.0\nchange_penalty = 0.5\n",
     );
     let flags = [
         "--config",
@@ -270,8 +270,8 @@ fn parameters_come_from_file_and_flags() {
     ];
     let config = room.plan(&flags).json()["provenance"]["config"]["hybrid_astar"].clone();
     assert_eq!(
-        (&config["weight"], &config["reverse_penalty"]),
-        (&json!(1.2), &json!(3.0))
+        (&config["weight"], &config["change_penalty"]),
+        (&json!(1.2), &json!(0.5))
     );
 }
 

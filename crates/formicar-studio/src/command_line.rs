@@ -25,7 +25,13 @@ pub(crate) fn line(answer: &Answer, request: &RequestDocument, map: &str, seed: 
     )];
     words.extend(request_flags(request));
     words.push(format!("--planner {} --seed {seed}", answer.planner));
-    words.extend(provenance.config.as_ref().map(settings));
+    words.extend(
+        provenance
+            .config
+            .as_ref()
+            .and_then(|config| config.known())
+            .map(settings),
+    );
     words.join(" ").trim_end().to_owned()
 }
 

@@ -192,7 +192,12 @@ impl Session {
         let Some(scene) = &self.scene else {
             return;
         };
-        let config = done.answer.provenance.config.as_ref();
+        let config = done
+            .answer
+            .provenance
+            .config
+            .as_ref()
+            .and_then(|config| config.known());
         let answer = ServerMessage::Answer {
             plan: done.plan,
             slot: order.slot,

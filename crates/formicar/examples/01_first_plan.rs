@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     // Parameters are plain values: this robot should drive straight and keep its distance.
     let cost = DriveCost {
         bend_weight: 0.2,
-        clearance_wish_m: 0.6,
+        clearance_wish_widths: 0.6,
         ..DriveCost::default()
     };
     let config = PlannerConfig::Formicar(FormicarParameters {

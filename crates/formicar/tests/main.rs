@@ -25,6 +25,7 @@ mod explanations;
 mod formats;
 mod grid_search;
 mod improve;
+mod maneuvers;
 mod parameters;
 mod pictures;
 mod planners;

@@ -27,9 +27,10 @@ fn the_list_tells_of_numbers_and_words() {
     assert_eq!(weight.kind, Kind::Number);
     assert_eq!(weight.allowed(), "1 to 10");
     assert_eq!(weight.default, 1.5);
-    let wish = of(&all, "cost.clearance_wish_m")[0];
-    assert_eq!(wish.unit.as_deref(), Some("m"));
-    assert!(wish.about.starts_with("Clearance"), "{}", wish.about);
+    let margin = of(&all, "smoothing.arc_margin_m")[0];
+    assert_eq!(margin.unit.as_deref(), Some("m"));
+    let wish = of(&all, "cost.clearance_wish_widths")[0];
+    assert!(wish.about.contains("clearance"), "{}", wish.about);
     let corners = of(&all, "smoothing.corners")[0];
     assert_eq!(corners.kind, Kind::Word);
     assert!(corners.allowed().contains("wide-arcs"));

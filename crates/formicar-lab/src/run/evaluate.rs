@@ -75,9 +75,9 @@ impl Evaluation<'_> {
         if self.vehicle.motion() != Motion::Car {
             return None;
         }
-        let (cost, body) = (DriveCost::default(), Body::new(self.vehicle));
-        let radius_m = self.vehicle.min_turning_radius_m();
-        let meter = DriveMeter::new(self.obstacles, &body, &cost, radius_m);
+        let cost = DriveCost::default().of_vehicle(self.vehicle);
+        let body = Body::new(self.vehicle);
+        let meter = DriveMeter::new(self.obstacles, &body, &cost);
         let start = self.obstacles.frame().to_grid(path.start());
         finite(meter.path_m(start, &arcs(path)))
     }

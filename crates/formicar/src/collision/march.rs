@@ -13,6 +13,43 @@ const EXACT_HALF_LENGTHS: f64 = 0.5;
 const ENOUGH_HALF_LENGTHS: f64 = 4.0;
 
 impl ObstacleMap {
+    /// The least clearance of a body along a drive as [`Self::drive_clearance_m`] finds it, faster
+    /// on long drives, for clearances between two limits, meters: any value up to the lower limit
+    /// where it is below that, and the upper one where it is above that.
+    pub fn drive_clearance_by_steps_m(
+        &self,
+        body: &Body,
+        drive: &Drive,
+        [low_m, high_m]: [f64; 2],
+    ) -> f64 {
+        let length_m = drive.signed_length_m.abs();
+        let half_m = body.half.x.max(body.half.y);
+        let stretch_m = EXACT_HALF_LENGTHS * half_m;
+        if body.inset > 0.0 || length_m <= stretch_m {
+            return self.drive_clearance_m(body, drive, high_m);
+        }
+        let error_m = OVERESTIMATE_CELLS * self.frame().resolution_m();
+        let lever = 1.0 + drive.curvature_per_m.abs() * body.reach_m();
+        let (mut least_m, mut known_m, mut at_m) = (high_m, 0.0, 0.0);
+        while known_m < length_m && least_m > low_m {
+            let pose = drive.pose_at(at_m / length_m);
+            let enough_m = least_m + ENOUGH_HALF_LENGTHS * half_m;
+            let estimate_m = self.clearance_estimate_m(body, pose, enough_m);
+            let room_m = (estimate_m - error_m - least_m) / lever;
+            if room_m > 0.25 * stretch_m && at_m - room_m < known_m {
+                known_m = at_m + room_m;
+                at_m = known_m + 0.75 * room_m;
+            } else {
+                let to_m = (known_m + stretch_m).min(length_m);
+                let part = drive.between(known_m / length_m, to_m / length_m);
+                least_m = self.drive_clearance_m(body, &part, least_m);
+                (known_m, at_m) = (to_m, to_m);
+            }
+            at_m = at_m.min(length_m);
+        }
+        least_m
+    }
+
     /// Same result as [`Self::is_free`], faster on long drives that mostly keep some distance.
     ///
     /// If the estimated clearance of a pose is c, no point of the body can reach anything before it
@@ -81,6 +118,13 @@ mod tests {
                     curvature_per_m: [0.0, stream.range(-0.5, 0.5)][stream.below(2)],
                     signed_length_m: stream.range(-10.0, 10.0),
                 };
+                let least_m = map.drive_clearance_m(&body, &drive, 0.5);
+                let by_steps_m = map.drive_clearance_by_steps_m(&body, &drive, [0.1, 0.5]);
+                if least_m > 0.1 {
+                    assert!((by_steps_m - least_m).abs() < 1e-6, "{drive:?}");
+                } else {
+                    assert!((0.0..0.1 + 1e-6).contains(&by_steps_m), "{drive:?}");
+                }
                 let is_free = map.is_free(&body, &drive);
                 assert_eq!(map.is_free_by_steps(&body, &drive), is_free, "{drive:?}");
                 *(if is_free { &mut n_free } else { &mut n_hits }) += 1;

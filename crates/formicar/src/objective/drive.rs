@@ -1,30 +1,32 @@
-//! The cost of driving a chain of arcs: its weights.
+//! The cost of driving a chain of arcs: its weights, in the sizes of a vehicle.
 
-use crate::geometry::Arc;
-use crate::parameters::{Parameters, parameters};
+use super::VehicleCost;
+use crate::parameters::parameters;
+use crate::vehicle::Vehicle;
 
 parameters! {
-    /// The cost of a driven path, in meters of straight forward driving on open ground.
+    /// The cost of a driven path, in the sizes of the vehicle: R is its least turning radius, a
+    /// width that of its body.
     ///
-    /// J = integral of (g + b (R kappa)^2 + n(c)) ds + sum of w R |jump of kappa| + s (changes of
-    /// gear), where g is 1 forward and `reverse_factor` in reverse, b is `bend_weight`, R the
-    /// turning radius, c the clearance, n(c) = `clearance_weight` (1 - c / `clearance_wish_m`)^2
-    /// below the wish and 0 above it, w is `curvature_change_weight` and s `gear_switch_m`.
-    /// Curvature is dimensionless in R, so that the weights serve vehicles of any size.
+    /// J = S + N + (share S + radii R) h^2, with h the halvings from the wish down to the least
+    /// clearance, N = integral of n(c) ds, and
     ///
-    /// Search, smoothing and improvement share this type, each with a value of its own:
-    /// [`HybridAstarConfig::cost`], [`SmoothingConfig::cost`] and the section `cost` of
-    /// configurations. The terms that only a search over motions uses are no keys of that section.
+    /// S = integral of (g + b (R kappa)^2) ds + sum of w R |jump of kappa| + s (changes of gear),
+    /// the cost on open ground, where g is 1 forward and `reverse_factor` in reverse, b is `bend_weight`, c the
+    /// clearance, n(c) = `clearance_weight` (1 - c / wish)^2 below the wish of
+    /// `clearance_wish_widths` and 0 above it, w is `curvature_change_weight` and s
+    /// `gear_switch_radii`. The share is `least_clearance_share`, the radii are
+    /// `least_clearance_radii`.
     ///
-    /// [`HybridAstarConfig::cost`]: ../search/struct.HybridAstarConfig.html#method.cost
-    /// [`SmoothingConfig::cost`]: ../smoothing/struct.SmoothingConfig.html#method.cost
+    /// [`DriveCost::of_vehicle`] makes meters of it, once per vehicle. Search, improvement and
+    /// transitions share one value, the section `cost` of configurations.
     pub struct DriveCost {
         /// Factor on the length driven in reverse.
         #[range(1.0..=100.0)]
-        pub reverse_factor: f64 = 3.0,
-        /// Cost of a change of gear, meters.
+        pub reverse_factor: f64 = 1.25,
+        /// Cost of a change of gear, turning radii.
         #[range(0.0..=1000.0)]
-        pub gear_switch_m: f64 = 10.0,
+        pub gear_switch_radii: f64 = 2.5,
         /// Cost of a jump of curvature from straight to the tightest turn, in turning radii; in
         /// proportion for other jumps. While the gear changes, the wheels turn at rest and nothing
         /// is counted.
@@ -35,38 +37,21 @@ parameters! {
         #[range(0.0..=100.0)]
         pub bend_weight: f64 = 0.05,
         /// Added to the factor on the length driven at contact; it falls with the square to 0 at
-        /// `clearance_wish_m`.
+        /// the wish.
         #[range(0.0..=100.0)]
         pub clearance_weight: f64 = 3.0,
-        /// Clearance from which on obstacles no longer count, meters.
+        /// The wish: clearance from which on obstacles no longer count, in widths of the body.
         #[range(0.0..=100.0)]
-        pub clearance_wish_m: f64 = 0.4,
-        /// Factor on the length driven with the wheels turned.
-        #[range(1.0..=100.0)]
-        #[serde(skip)]
-        pub turn_factor: f64 = 1.0,
-        /// Added to that factor on an arc that steers the other way than the motion before.
+        pub clearance_wish_widths: f64 = 0.5,
+        /// The share of the cost on open ground that a least clearance of half the wish adds; it
+        /// grows with the square of the number of halvings.
         #[range(0.0..=100.0)]
-        #[serde(skip)]
-        pub swing_factor: f64 = 0.0,
-        /// The shape of n(c).
-        #[serde(skip)]
-        pub falloff: Falloff = Falloff::Squared,
+        pub least_clearance_share: f64 = 0.15,
+        /// What a least clearance of half the wish adds besides, turning radii.
+        #[range(0.0..=1000.0)]
+        pub least_clearance_radii: f64 = 2.5,
     }
 }
-
-/// The shape of the cost of nearness between contact and the desired clearance.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Falloff {
-    /// With the square of the lack of clearance; it goes on growing where estimates of the
-    /// clearance are below 0.
-    #[default]
-    Squared,
-    /// With the lack of clearance.
-    Linear,
-}
-
-impl Parameters for Falloff {}
 
 impl DriveCost {
     /// Whether these are the defaults.
@@ -79,80 +64,47 @@ impl DriveCost {
     pub fn length_alone() -> Self {
         Self {
             reverse_factor: 1.0,
-            gear_switch_m: 0.0,
+            gear_switch_radii: 0.0,
             curvature_change_weight: 0.0,
             bend_weight: 0.0,
             clearance_weight: 0.0,
-            clearance_wish_m: 0.0,
-            ..Self::default()
+            clearance_wish_widths: 0.0,
+            least_clearance_share: 0.0,
+            least_clearance_radii: 0.0,
         }
     }
 
-    /// The factor on a length driven in the gear of a sign.
-    pub fn gear_factor(&self, sign: f64) -> f64 {
-        if sign < 0.0 { self.reverse_factor } else { 1.0 }
+    /// The cost for a vehicle, in meters. A safety margin is no part of its width.
+    ///
+    /// ```
+    /// use formicar::Vehicle;
+    /// use formicar::objective::DriveCost;
+    ///
+    /// let cost = DriveCost::default().of_vehicle(&Vehicle::sedan());
+    /// assert_eq!(format!("{:.1}", cost.gear_switch_m), "10.0");
+    /// assert_eq!(format!("{:.1}", cost.clearance_wish_m), "0.9");
+    /// ```
+    pub fn of_vehicle(&self, vehicle: &Vehicle) -> VehicleCost {
+        let margin_m = vehicle.parameters().safety_margin_m.unwrap_or(0.0);
+        let width_m = vehicle.width_m() - 2.0 * margin_m;
+        self.in_meters(vehicle.min_turning_radius_m(), width_m)
     }
 
-    /// The cost of the change between the gears of two signs, meters; 0 stands for neither gear.
-    pub fn gear_change_m(&self, before: f64, after: f64) -> f64 {
-        if before * after < 0.0 {
-            self.gear_switch_m
-        } else {
-            0.0
+    /// The cost for a least turning radius and a width of the body, in meters.
+    pub fn in_meters(&self, radius_m: f64, width_m: f64) -> VehicleCost {
+        VehicleCost {
+            radius_m,
+            reverse_factor: self.reverse_factor,
+            gear_switch_m: self.gear_switch_radii * radius_m,
+            curvature_change_weight: self.curvature_change_weight,
+            bend_weight: self.bend_weight,
+            clearance_weight: self.clearance_weight,
+            clearance_wish_m: self.clearance_wish_widths * width_m,
+            least_clearance_share: self.least_clearance_share,
+            least_clearance_m: self.least_clearance_radii * radius_m,
+            turn_factor: 1.0,
+            swing_factor: 0.0,
         }
-    }
-
-    /// The cost of a meter of an arc on open ground, for a turning radius in meters.
-    pub fn rate(&self, arc: Arc, radius_m: f64) -> f64 {
-        self.rate_after(arc, arc, radius_m)
-    }
-
-    /// The same where the motion before the arc counts.
-    pub fn rate_after(&self, before: Arc, arc: Arc, radius_m: f64) -> f64 {
-        let turn = if arc.curvature_per_m == 0.0 {
-            1.0
-        } else {
-            self.turn_factor
-        };
-        let swing = if before.curvature_per_m * arc.curvature_per_m < 0.0 {
-            self.swing_factor
-        } else {
-            0.0
-        };
-        let bend = arc.curvature_per_m * radius_m;
-        self.gear_factor(arc.signed_length_m) * (turn + swing) + self.bend_weight * bend * bend
-    }
-
-    /// The cost of an arc on open ground, for a turning radius in meters.
-    pub fn open_ground_m(&self, arc: Arc, radius_m: f64) -> f64 {
-        arc.length_m() * self.rate(arc, radius_m)
-    }
-
-    /// The cost of going over from an arc to the next, for a turning radius in meters.
-    pub fn joint_m(&self, before: Arc, after: Arc, radius_m: f64) -> f64 {
-        if before.signed_length_m * after.signed_length_m < 0.0 {
-            return self.gear_switch_m;
-        }
-        let jump = (after.curvature_per_m - before.curvature_per_m).abs();
-        // w R |jump|, in turning radii: R once more makes meters of it.
-        self.curvature_change_weight * radius_m * (radius_m * jump)
-    }
-
-    /// n(c): the surcharge on a meter at a clearance.
-    pub fn nearness(&self, clearance_m: f64) -> f64 {
-        if clearance_m >= self.clearance_wish_m || self.clearance_wish_m == 0.0 {
-            return 0.0;
-        }
-        let lack = 1.0 - clearance_m / self.clearance_wish_m;
-        match self.falloff {
-            Falloff::Squared => self.clearance_weight * lack * lack,
-            Falloff::Linear => self.clearance_weight * lack.min(1.0),
-        }
-    }
-
-    /// Whether obstacles count at all.
-    pub fn sees_obstacles(&self) -> bool {
-        self.clearance_weight > 0.0 && self.clearance_wish_m > 0.0
     }
 }
 
@@ -161,55 +113,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn weighs_gears_bends_and_jumps() {
-        let cost = DriveCost {
-            reverse_factor: 3.0,
-            gear_switch_m: 5.0,
-            curvature_change_weight: 0.5,
-            bend_weight: 0.1,
+    fn sizes_become_meters() {
+        let sizes = DriveCost {
+            least_clearance_share: 0.8,
+            least_clearance_radii: 8.0,
             ..DriveCost::default()
         };
-        let (ahead, back) = (Arc::new(0.25, 2.0), Arc::new(0.0, -2.0));
-        assert!((cost.open_ground_m(ahead, 2.0) - 2.0 * 1.025).abs() < 1e-12);
-        assert_eq!(cost.open_ground_m(back, 2.0), 6.0);
-        assert_eq!(cost.joint_m(ahead, back, 2.0), 5.0);
-        // Half of the tightest curvature at half a turning radius of 2 m.
-        assert_eq!(cost.joint_m(ahead, Arc::new(0.0, 1.0), 2.0), 0.5);
-        assert_eq!(cost.joint_m(ahead, ahead, 2.0), 0.0);
-    }
-
-    #[test]
-    fn obstacles_count_below_the_wish() {
-        let cost = DriveCost {
-            clearance_weight: 2.0,
-            clearance_wish_m: 0.4,
-            ..DriveCost::default()
-        };
-        assert_eq!(cost.nearness(0.4), 0.0);
-        assert!((cost.nearness(0.2) - 0.5).abs() < 1e-12);
-        assert_eq!(cost.nearness(0.0), 2.0);
-        assert!(cost.nearness(-0.1) > 3.0);
-        assert_eq!(DriveCost::length_alone().nearness(0.0), 0.0);
-        assert!(!DriveCost::length_alone().sees_obstacles());
-    }
-
-    #[test]
-    fn a_search_counts_turned_wheels_and_falls_in_a_line() {
-        let cost = DriveCost {
-            reverse_factor: 2.0,
-            turn_factor: 1.5,
-            swing_factor: 0.25,
-            clearance_weight: 2.0,
-            clearance_wish_m: 0.4,
-            falloff: Falloff::Linear,
-            ..DriveCost::length_alone()
-        };
-        let (left, right) = (Arc::new(0.5, 1.0), Arc::new(-0.5, -1.0));
-        assert_eq!(cost.rate(left, 2.0), 1.5);
-        assert_eq!(cost.rate_after(left, right, 2.0), 3.5);
-        assert_eq!(cost.rate_after(left, Arc::new(0.0, 1.0), 2.0), 1.0);
-        assert_eq!(cost.nearness(0.2), 1.0);
-        assert_eq!(cost.nearness(-0.2), 2.0);
+        let cost = sizes.in_meters(4.0, 1.8);
+        assert_eq!((cost.gear_switch_m, cost.radius_m), (10.0, 4.0));
+        assert!((cost.clearance_wish_m - 0.9).abs() < 1e-12);
+        let small = sizes.in_meters(0.4, 0.18);
+        let (little, much) = (
+            small.least_clearance_price_m(1.0, 0.03),
+            cost.least_clearance_price_m(10.0, 0.3),
+        );
+        assert!((little - 0.1 * much).abs() < 1e-9);
     }
 
     #[test]

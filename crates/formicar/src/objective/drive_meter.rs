@@ -1,16 +1,17 @@
 //! The cost of driving a chain of arcs on a map: the integral along it.
 
-use super::DriveCost;
-use crate::collision::{Body, ObstacleMap};
+use super::VehicleCost;
+use crate::collision::{Body, Drive, ObstacleMap};
 use crate::geometry::{Arc, Point2, Pose2};
 use std::f64::consts::SQRT_2;
 
 /// Additional cost of a meter at a position in grid coordinates, at least 0: a preference.
 pub type SoftCost<'a> = &'a (dyn Fn(Point2) -> f64 + Sync);
 
-/// Measures the [`DriveCost`] of arcs for a body on a map, in grid coordinates.
+/// Measures the [`VehicleCost`] of arcs for a body on a map, in grid coordinates.
 ///
-/// The cost of a path is the sum over its arcs and its joints. Clearance is sampled halfway along
+/// The cost of a path is the sum over its arcs and its joints and what its least clearance adds,
+/// [`VehicleCost::least_clearance_price_m`]. Along arcs, clearance is sampled halfway along
 /// equal steps of each arc, by [`ObstacleMap::clearance_estimate_m`]; steps far from obstacles are
 /// skipped, which does not change the sum. If arcs of one motion are merged
 /// ([`DriveMeter::merged`]), the cost depends on the path alone and not on how it is cut.
@@ -18,8 +19,7 @@ pub type SoftCost<'a> = &'a (dyn Fn(Point2) -> f64 + Sync);
 pub struct DriveMeter<'a> {
     obstacles: &'a ObstacleMap,
     body: &'a Body,
-    cost: &'a DriveCost,
-    radius_m: f64,
+    cost: &'a VehicleCost,
     soft: Option<SoftCost<'a>>,
     spacing_m: f64,
 }
@@ -30,19 +30,13 @@ impl<'a> DriveMeter<'a> {
     /// Steps never get shorter than this share of a cell.
     const LEAST_SPACING_CELLS: f64 = 0.5;
 
-    /// For a body with a turning radius in meters.
-    pub fn new(
-        obstacles: &'a ObstacleMap,
-        body: &'a Body,
-        cost: &'a DriveCost,
-        radius_m: f64,
-    ) -> Self {
+    /// For a body on a map.
+    pub fn new(obstacles: &'a ObstacleMap, body: &'a Body, cost: &'a VehicleCost) -> Self {
         let least_m = Self::LEAST_SPACING_CELLS * obstacles.frame().resolution_m();
         Self {
             obstacles,
             body,
             cost,
-            radius_m,
             soft: None,
             spacing_m: (Self::SPACING_WISHES * cost.clearance_wish_m).max(least_m),
         }
@@ -63,15 +57,63 @@ impl<'a> DriveMeter<'a> {
     pub fn path_m(&self, start: Pose2, arcs: &[Arc]) -> f64 {
         let arcs = Self::merged(arcs);
         let mut pose = start;
-        let mut sum = 0.0;
+        let (mut around_m, mut least_m) = (0.0, self.cost.clearance_wish_m);
         for &arc in &arcs {
-            sum += self.arc_m(pose, arc);
+            around_m += self.around_m(pose, arc, f64::INFINITY);
+            least_m = self.least_clearance_m(pose, arc, [0.0, least_m]);
             pose = arc.end_from(pose);
         }
-        sum + arcs
-            .windows(2)
-            .map(|w| self.joint_m(w[0], w[1]))
-            .sum::<f64>()
+        let open_m = self.cost.open_path_m(&arcs);
+        open_m + around_m + self.least_clearance_price_m(open_m, least_m)
+    }
+
+    /// The least clearance of a path, meters, at most the wish.
+    pub fn path_least_clearance_m(&self, start: Pose2, arcs: &[Arc]) -> f64 {
+        let mut pose = start;
+        arcs.iter()
+            .fold(self.cost.clearance_wish_m, |least_m, &arc| {
+                let from = pose;
+                pose = arc.end_from(pose);
+                self.least_clearance_m(from, arc, [0.0, least_m])
+            })
+    }
+
+    /// What the least clearance of a path adds to its cost, given that on open ground.
+    pub fn least_clearance_price_m(&self, open_path_m: f64, least_clearance_m: f64) -> f64 {
+        self.cost
+            .least_clearance_price_m(open_path_m, least_clearance_m)
+    }
+
+    /// The least clearance at which its price is that much, given the cost on open ground: at less
+    /// it is dearer.
+    pub fn least_clearance_for_m(&self, open_path_m: f64, price_m: f64) -> f64 {
+        self.cost.least_clearance_for_m(open_path_m, price_m)
+    }
+
+    /// True where the least clearance counts.
+    pub fn counts_least_clearance(&self) -> bool {
+        self.cost.counts_least_clearance()
+    }
+
+    /// True for a clearance from the wish on, or where none counts.
+    pub fn is_enough_m(&self, clearance_m: f64) -> bool {
+        !self.counts_least_clearance() || clearance_m >= self.cost.clearance_wish_m
+    }
+
+    /// The least clearance along an arc, exact between two limits: where it is below the lower
+    /// one, any value up to that; above the upper one or the wish, the lesser of the two.
+    pub fn least_clearance_m(&self, start: Pose2, arc: Arc, [low_m, high_m]: [f64; 2]) -> f64 {
+        let limit_m = high_m.min(self.cost.clearance_wish_m);
+        if !self.cost.counts_least_clearance() {
+            return limit_m;
+        }
+        let drive = Drive {
+            start,
+            curvature_per_m: arc.curvature_per_m,
+            signed_length_m: arc.signed_length_m,
+        };
+        self.obstacles
+            .drive_clearance_by_steps_m(self.body, &drive, [low_m, limit_m])
     }
 
     /// The same path with arcs that continue one motion made one, and those without length gone.
@@ -88,12 +130,12 @@ impl<'a> DriveMeter<'a> {
 
     /// Cost of the joint from an arc to the next.
     pub fn joint_m(&self, before: Arc, after: Arc) -> f64 {
-        self.cost.joint_m(before, after, self.radius_m)
+        self.cost.joint_m(before, after)
     }
 
     /// Cost of an arc far from obstacles: a lower bound anywhere.
     pub fn open_ground_m(&self, arc: Arc) -> f64 {
-        self.cost.open_ground_m(arc, self.radius_m)
+        self.cost.open_ground_m(arc)
     }
 
     /// Cost of an arc in its place.
@@ -201,6 +243,7 @@ impl Walk {
 mod tests {
     use super::*;
     use crate::map::OccupancyGrid;
+    use crate::objective::DriveCost;
     use crate::vehicle::Vehicle;
 
     /// A wall along the lower side of a wide yard, 0.2 m cells.
@@ -211,18 +254,21 @@ mod tests {
         ObstacleMap::new(&OccupancyGrid::from_rows(&rows, 0.2).unwrap())
     }
 
-    fn cost() -> DriveCost {
-        DriveCost {
+    /// Nearness alone, so that costs add up.
+    fn cost() -> VehicleCost {
+        VehicleCost {
             clearance_weight: 2.0,
             clearance_wish_m: 0.4,
-            ..DriveCost::default()
+            least_clearance_share: 0.0,
+            least_clearance_m: 0.0,
+            ..DriveCost::default().in_meters(2.0, 1.0)
         }
     }
 
     #[test]
     fn a_line_along_a_wall_costs_its_clearance() {
         let (map, body, cost) = (yard(), Body::new(&Vehicle::lei2020()), cost());
-        let meter = DriveMeter::new(&map, &body, &cost, 2.0);
+        let meter = DriveMeter::new(&map, &body, &cost);
         let line = [Arc::new(0.0, 10.0)];
         // 0.2 m between the wall at 0.4 m and the side of a body that is 1 m wide.
         let near = meter.path_m(Pose2::new(20.0, 1.1, 0.0), &line);
@@ -233,9 +279,29 @@ mod tests {
     }
 
     #[test]
+    fn the_least_clearance_is_priced_once_and_exactly() {
+        let (map, body) = (yard(), Body::new(&Vehicle::lei2020()));
+        let cost = VehicleCost {
+            clearance_weight: 0.0,
+            clearance_wish_m: 0.4,
+            least_clearance_share: 0.8,
+            least_clearance_m: 16.0,
+            ..DriveCost::default().in_meters(2.0, 1.0)
+        };
+        let meter = DriveMeter::new(&map, &body, &cost);
+        let cost_m =
+            |y, length_m| meter.path_m(Pose2::new(20.0, y, 0.0), &[Arc::new(0.0, length_m)]);
+        let total_m = |m, clearance_m| m + cost.least_clearance_price_m(m, clearance_m);
+        // The wall ends at 0.4 m, and the body is 1 m wide.
+        assert!((cost_m(1.1, 10.0) - total_m(10.0, 0.2)).abs() < 1e-9);
+        assert!((cost_m(1.0, 4.0) - total_m(4.0, 0.1)).abs() < 1e-9);
+        assert_eq!(cost_m(1.4, 10.0), 10.0);
+    }
+
+    #[test]
     fn costs_do_not_depend_on_cuts_nor_on_what_is_passed_over() {
         let (map, body, cost) = (yard(), Body::new(&Vehicle::lei2020()), cost());
-        let meter = DriveMeter::new(&map, &body, &cost, 2.0);
+        let meter = DriveMeter::new(&map, &body, &cost);
         let start = Pose2::new(20.0, 3.2, -1.0);
         let arc = Arc::new(0.25, 8.0);
         let whole = meter.path_m(start, &[arc]);
@@ -264,7 +330,7 @@ mod tests {
     fn soft_costs_add_up_and_limits_cut_short() {
         let (map, body, cost) = (yard(), Body::new(&Vehicle::lei2020()), cost());
         let soft = |p: Point2| if p.x < 25.0 { 0.5 } else { 0.0 };
-        let meter = DriveMeter::new(&map, &body, &cost, 2.0).with_soft_cost(&soft);
+        let meter = DriveMeter::new(&map, &body, &cost).with_soft_cost(&soft);
         let start = Pose2::new(20.0, 15.0, 0.0);
         let line = Arc::new(0.0, 10.0);
         assert!((meter.arc_m(start, line) - 12.5).abs() < 1e-9);

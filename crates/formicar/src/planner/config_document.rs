@@ -24,6 +24,10 @@ impl<'de> Deserialize<'de> for PlannerConfig {
             let message = format!("unknown section {stray:?}; there are {PLANNER}, {known}");
             return Err(D::Error::custom(message));
         }
+        if let Some((key, now)) = renamed(&given) {
+            let message = format!("unknown key {key}; hint: it is {now} now");
+            return Err(D::Error::custom(message));
+        }
         let config = Self::of(planner).laid(&mut given)?;
         for other in PlannerName::ALL {
             if given.is_empty() {
@@ -34,6 +38,40 @@ impl<'de> Deserialize<'de> for PlannerConfig {
         }
         Ok(config)
     }
+}
+
+/// Keys of earlier versions, and what stands for them now.
+const RENAMED: [(&str, &str, &str); 6] = [
+    (
+        "cost",
+        "gear_switch_m",
+        "cost.gear_switch_radii, in turning radii",
+    ),
+    (
+        "cost",
+        "clearance_wish_m",
+        "cost.clearance_wish_widths, in widths of the body",
+    ),
+    ("hybrid_astar", "reverse_penalty", "cost.reverse_factor"),
+    (
+        "hybrid_astar",
+        "direction_switching_cost",
+        "cost.gear_switch_radii, in turning radii",
+    ),
+    ("hybrid_astar", "cost_penalty", "cost.clearance_weight"),
+    (
+        "hybrid_astar",
+        "clearance_wish_m",
+        "cost.clearance_wish_widths, in widths of the body",
+    ),
+];
+
+/// The first key of an earlier version in a document, and what stands for it now.
+fn renamed(given: &Map<String, Value>) -> Option<(String, &'static str)> {
+    let found = RENAMED
+        .iter()
+        .find(|(section, key, _)| given.get(*section).is_some_and(|s| s.get(key).is_some()));
+    found.map(|(section, key, now)| (format!("{section}.{key}"), *now))
 }
 
 /// Names of the sections of all planners, each once.
@@ -141,6 +179,14 @@ mod tests {
     fn what_is_unknown_or_of_the_wrong_type_is_named() {
         for (bad, named) in [
             (r#"{"colonie": {}}"#, "colonie"),
+            (
+                r#"{"cost": {"gear_switch_m": 10.0}}"#,
+                "cost.gear_switch_m; hint: it is cost.gear_switch_radii",
+            ),
+            (
+                r#"{"hybrid_astar": {"reverse_penalty": 3.0}}"#,
+                "cost.reverse_factor",
+            ),
             (r#"{"planner": "ants"}"#, "lei2020"),
             (r#"{"colony": {"n_ant": 3}}"#, "n_ants"),
             (r#"{"colony": {"n_ants": "many"}}"#, "colony"),

@@ -83,7 +83,8 @@ const MAX_PLACES: usize = 100;
 impl Request {
     /// Checks the request against a map and a vehicle.
     ///
-    /// Of several goals one has to be free; the others may be taken.
+    /// Of several goals one has to be free, at a pose within its tolerance; the others may be
+    /// taken.
     ///
     /// # Errors
     /// As [`Scenario::with_request`].
@@ -98,10 +99,16 @@ impl Request {
         let mut first_taken = None;
         let mut one_is_free = false;
         for goal in self.goals() {
+            let stands_free =
+                |pose| obstacles.is_free(&body, &Drive::at(obstacles.frame().to_grid(pose)));
             match check_end(obstacles, &body, Endpoint::Goal, &self.poses_at_goal(goal)) {
                 Ok(()) => one_is_free = true,
                 Err(taken @ ScenarioError::Occupied { .. }) => {
-                    first_taken.get_or_insert(taken);
+                    if self.free_poses_at_goal(goal, stands_free).is_empty() {
+                        first_taken.get_or_insert(taken);
+                    } else {
+                        one_is_free = true;
+                    }
                 }
                 Err(error) => return Err(error),
             }

@@ -1,5 +1,6 @@
 //! The poses that a request allows at its ends, and which of its goals a path has reached.
 
+use super::goal_region::poses_around;
 use super::{GoalHeading, Request, StartHeading, ViaPoint};
 use crate::geometry::{Pose2, angle_difference};
 use crate::vehicle::Motion;
@@ -60,6 +61,29 @@ impl Request {
             GoalHeading::Bidirectional => vec![goal, turned(goal, PI)],
             GoalHeading::Any => all_around(goal),
         }
+    }
+
+    /// The poses at one goal at which a vehicle can stand, as `is_free` tells: those that the
+    /// goal-heading mode allows or, where each of these is taken, others within the tolerance.
+    pub(crate) fn free_poses_at_goal(
+        &self,
+        goal: Pose2,
+        is_free: impl Fn(Pose2) -> bool,
+    ) -> Vec<Pose2> {
+        let poses = self.poses_at_goal(goal);
+        let free: Vec<Pose2> = poses.iter().copied().filter(|&p| is_free(p)).collect();
+        if !free.is_empty() {
+            return free;
+        }
+        let near = |pose| poses_around(pose, self.goal_tolerance).find(|&p| is_free(p));
+        poses.into_iter().filter_map(near).collect()
+    }
+
+    /// True where a path that ends at a pose has reached a goal.
+    pub fn is_goal(&self, motion: Motion, end: Pose2) -> bool {
+        let reached = self.reached_goal(motion, end);
+        reached.error_m <= self.goal_tolerance.xy_m
+            && reached.error_rad <= self.goal_tolerance.yaw_rad
     }
 
     /// The goal that a path with this end has reached: that which is nearest in units of the

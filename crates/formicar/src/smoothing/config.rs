@@ -1,7 +1,7 @@
 //! Parameters of smoothing.
 
 use super::redundant_nodes::RedundantNodes;
-use crate::objective::DriveCost;
+use crate::objective::{DriveCost, VehicleCost};
 use crate::parameters::{Parameters, parameters};
 
 /// The way in which corners of a polyline are made drivable.
@@ -70,12 +70,12 @@ parameters! {
 }
 
 impl SmoothingConfig {
-    /// The cost of driving: gears alone.
-    pub fn cost(&self) -> DriveCost {
-        DriveCost {
+    /// The cost of driving for a least turning radius: gears alone.
+    pub fn cost(&self, radius_m: f64) -> VehicleCost {
+        VehicleCost {
             reverse_factor: self.reverse_penalty,
             gear_switch_m: self.direction_switching_cost,
-            ..DriveCost::length_alone()
+            ..DriveCost::length_alone().in_meters(radius_m, 0.0)
         }
     }
 

@@ -56,7 +56,7 @@ pub fn smooth(
         .vehicle
         .with_safety_margin(own_m + config.arc_margin_m);
     let careful_body = careful.map_or(body.clone(), |vehicle| Body::new(&vehicle));
-    let cost = config.cost();
+    let cost = config.cost(problem.vehicle.min_turning_radius_m());
     let task = RoundingTask {
         cost: &cost,
         obstacles: problem.obstacles,

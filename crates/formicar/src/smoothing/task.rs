@@ -4,7 +4,7 @@ use super::config::SmoothingConfig;
 use super::roadmap::Facing;
 use crate::collision::{Body, Drive, ObstacleMap};
 use crate::geometry::{Arc, Curve, Pose2, dubins, reeds_shepp};
-use crate::objective::DriveCost;
+use crate::objective::VehicleCost;
 use crate::vehicle::Gears;
 
 /// Cost of a line or an arc along which the margin is not kept, turning radii.
@@ -30,7 +30,7 @@ pub(super) struct RoundingTask<'a> {
     pub(super) careful_body: &'a Body,
     pub(super) radius_m: f64,
     pub(super) config: &'a SmoothingConfig,
-    pub(super) cost: &'a DriveCost,
+    pub(super) cost: &'a VehicleCost,
     pub(super) gears: Gears,
     pub(super) ends: &'a Ends,
 }
@@ -110,8 +110,7 @@ impl RoundingTask<'_> {
         let mut cost = 0.0;
         for arc in curve.arcs() {
             let next = arc.signed_length_m.signum();
-            cost +=
-                self.cost.open_ground_m(*arc, self.radius_m) + self.cost.gear_change_m(gear, next);
+            cost += self.cost.open_ground_m(*arc) + self.cost.gear_change_m(gear, next);
             gear = next;
         }
         cost + self.cost.gear_change_m(gear, after)

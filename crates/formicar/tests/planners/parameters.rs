@@ -41,7 +41,8 @@ fn bad_parameters_are_refused_with_their_range() {
             |c| c.drive.repair.toll_per_death = -1.0,
             |c| c.drive.trails.rho = 1.5,
             |c| c.cost.reverse_factor = 0.0,
-            |c| c.cost.clearance_wish_m = f64::INFINITY,
+            |c| c.cost.clearance_wish_widths = f64::INFINITY,
+            |c| c.cost.gear_switch_radii = -1.0,
             |c| c.improve.n_checked = 0,
         ],
     );
@@ -119,9 +120,9 @@ fn bad_parameters_of_hybrid_astar_are_refused() {
             |c| c.hybrid_astar.max_iterations = 0,
             |c| c.hybrid_astar.angle_quantization_bins = 7,
             |c| c.hybrid_astar.step_radii = 0.0,
-            |c| c.hybrid_astar.reverse_penalty = 0.5,
-            |c| c.hybrid_astar.direction_switching_cost = -1.0,
-            |c| c.hybrid_astar.clearance_wish_m = f64::INFINITY,
+            |c| c.hybrid_astar.cost_share = 1.5,
+            |c| c.hybrid_astar.change_penalty = -1.0,
+            |c| c.cost.reverse_factor = 0.5,
         ],
     );
 }

@@ -228,8 +228,8 @@ impl Journey<'_> {
     fn cost_m(&self, path: &CurvePath) -> f64 {
         let (obstacles, vehicle) = (self.planner.obstacles(), &self.ground.vehicle);
         let body = Body::new(vehicle);
-        let radius_m = vehicle.min_turning_radius_m();
-        let meter = DriveMeter::new(obstacles, &body, self.config.cost(), radius_m);
+        let cost = self.config.cost().of_vehicle(vehicle);
+        let meter = DriveMeter::new(obstacles, &body, &cost);
         let arcs = path.segments().iter().map(|segment| {
             let length_m = segment.direction.sign() * segment.length_m;
             Arc::new(segment.curvature_per_m, length_m)

@@ -167,7 +167,28 @@ pub struct Provenance {
     /// The request with all its defaults; null where it could not be read.
     pub request: Option<RequestDocument>,
     /// Every parameter of a built-in planner; null of another.
-    pub config: Option<PlannerConfig>,
+    pub config: Option<ConfigRecord>,
+}
+
+/// The parameters of the planner that answered.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(untagged)]
+pub enum ConfigRecord {
+    /// Those of this version.
+    Known(Box<PlannerConfig>),
+    /// Those of another version, as they are written.
+    Other(serde_json::Value),
+}
+
+impl ConfigRecord {
+    /// Those of this version; none of another one.
+    pub fn known(&self) -> Option<&PlannerConfig> {
+        match self {
+            Self::Known(config) => Some(config),
+            Self::Other(_) => None,
+        }
+    }
 }
 
 /// Source and reading of a map.
@@ -319,7 +340,10 @@ impl AnswerContext<'_> {
                 parameters: vehicle.parameters().clone(),
             },
             request,
-            config: self.planner.config().cloned(),
+            config: self
+                .planner
+                .config()
+                .map(|config| ConfigRecord::Known(Box::new(config.clone()))),
         }
     }
 }

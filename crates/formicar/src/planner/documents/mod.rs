@@ -14,8 +14,8 @@ mod via_record;
 
 #[cfg(feature = "serde")]
 pub use answer::{
-    ANSWER_SCHEMA, Answer, AnswerContext, AnswerStatus, ColonyRecord, MapRecord, Provenance,
-    SoftCostsRecord, Timing, VehicleRecord,
+    ANSWER_SCHEMA, Answer, AnswerContext, AnswerStatus, ColonyRecord, ConfigRecord, MapRecord,
+    Provenance, SoftCostsRecord, Timing, VehicleRecord,
 };
 pub use explanation::{Collision, Disconnected, Explanation, Gap};
 #[cfg(feature = "serde")]

@@ -4,7 +4,8 @@ use super::check_motion;
 use crate::collision::{Body, Drive};
 use crate::geometry::Pose2;
 use crate::map::DiagonalRule;
-use crate::planner::{Found, Halt, SeveralGoals, Task};
+use crate::path::CurvePath;
+use crate::planner::{Found, Halt, SeveralGoals, Stages, Task};
 use crate::progress::{Limits, Status};
 use crate::scenario::Request;
 use crate::search::GoalField;
@@ -12,6 +13,9 @@ use crate::search::GoalField;
 /// Plans to any of the goals of a request without via points. A search that plans to one goal is
 /// asked for the nearest, and for the next where that one cannot be reached.
 pub(super) fn find_any(task: &mut Task, limits: &mut Limits) -> Result<Found, Halt> {
+    if let Some(found) = standing(task, limits) {
+        return Ok(found);
+    }
     let rule = match task.search.abilities().goals {
         SeveralGoals::NearestFirst(rule) if !task.request().other_goals.is_empty() => rule,
         SeveralGoals::NearestFirst(_) | SeveralGoals::AtOnce => return search(task, limits),
@@ -74,9 +78,26 @@ fn goals_by_distance(
 /// True where the vehicle can stand at a goal in one of the headings that the request allows.
 fn fits(task: &Task, request: &Request, goal: Pose2) -> bool {
     let body = Body::new(task.vehicle());
-    let mut poses = request.poses_at_goal(goal).into_iter();
-    poses.any(|pose| {
+    let stands_free = |pose| {
         let pose = task.to_grid(pose);
         task.obstacles().is_free(&body, &Drive::at(pose))
-    })
+    };
+    !request.free_poses_at_goal(goal, stands_free).is_empty()
+}
+
+/// The path without length of a vehicle that stands at a goal already, whichever search is asked.
+/// The observer hears of it.
+pub(super) fn standing(task: &Task, limits: &mut Limits) -> Option<Found> {
+    let request = task.request();
+    let (motion, body) = (task.vehicle().motion(), Body::new(task.vehicle()));
+    let stands = |&pose: &Pose2| {
+        request.is_goal(motion, pose)
+            && task
+                .obstacles()
+                .is_free(&body, &Drive::at(task.to_grid(pose)))
+    };
+    let start = request.start_poses().into_iter().find(stands)?;
+    let path = CurvePath::from_segments(start, Vec::new());
+    limits.tell_improved(&path);
+    Some(Found::new(path, Stages::default()))
 }

@@ -170,7 +170,7 @@ impl Planner {
         let mut task = self.task(request, seed);
         let found = match disconnected::disconnected(&mut task) {
             Some(ended) => Err(ended.into()),
-            None => task.search.replan(&mut task, previous, &mut limits),
+            None => replan(&mut task, previous, &mut limits),
         };
         conclude::conclude(&task, found, &mut limits)
     }
@@ -240,6 +240,19 @@ fn find(task: &mut Task, limits: &mut Limits) -> Result<Found, Halt> {
         goals::find_any(task, limits)
     } else {
         find_legs(task, limits)
+    }
+}
+
+/// Plans again with a previous path, where the vehicle is not at a goal already.
+fn replan(task: &mut Task, previous: &CurvePath, limits: &mut Limits) -> Result<Found, Halt> {
+    let standing = if task.request().via.is_empty() {
+        goals::standing(task, limits)
+    } else {
+        None
+    };
+    match standing {
+        Some(found) => Ok(found),
+        None => task.search.replan(task, previous, limits),
     }
 }
 

@@ -11,12 +11,11 @@ sections! {
     /// Parameters of `formicar`.
     #[derive(Default)]
     FormicarParameters {
-        /// Parameters of `hybrid-astar`, with the lattice and the costs of motions that `formicar`
-        /// shares.
+        /// Parameters of `hybrid-astar`, whose lattice `formicar` shares.
         hybrid_astar: HybridAstarConfig,
         /// The ants that drive, of `formicar`.
         drive: DriveConfig,
-        /// Cost of a driven path, by which `formicar` improves it.
+        /// Cost of driving, by which `formicar` searches and improves.
         cost: DriveCost,
         /// Improvement of a driven path.
         improve: ImproveConfig,

@@ -1,25 +1,34 @@
 //! The improvement of the first path, and of others that hybrid A* and ants still find.
 
 use super::query::Query;
-use super::race::{FirstPath, RaceStage, Rules};
+use super::race::{FirstPath, RaceStage};
 use crate::colony::drive::DriveColony;
 use crate::geometry::{Arc, Point2};
 use crate::numeric::Seed;
 use crate::progress::{Limits, Status};
-use crate::search::{Driven, Side, hybrid_astar};
+use crate::search::{DriveProblem, Driven, Side, hybrid_astar};
 use crate::smoothing::{ImproveConfig, ImproveProblem, Improver};
 
-/// Another path is improved where it is at most so many times as long as the best one.
+/// Another path is improved where on open ground it would cost at most so many times what the
+/// best one costs.
 const WORTH_RATIO: f64 = 1.3;
 /// Tries that the path of an ant is given at first,
 const QUICK_TRIES: u64 = 300;
 /// and how much dearer than the best path it may then be to be improved further.
-const PROMISING_RATIO: f64 = 1.03;
+const PROMISING_RATIO: f64 = 1.1;
 /// A best path that costs at least so many times the way along the goal field, which knows no
 /// turns, may not be the best way around: ants look for others,
 const GOOD_RATIO: f64 = 1.25;
-/// and hybrid A* has so many times its steps.
+/// and hybrid A* has so many times its steps,
 const MORE_STEPS: u64 = 4;
+/// and searches anew by the whole cost, for at most so many steps from either end.
+const FULL_COST_STEPS: u64 = 3_000;
+/// Clearances at which paths are sought that keep more than the best one,
+const N_ROOMS: i32 = 4;
+/// by so much,
+const MORE_ROOM: f64 = 1.2;
+/// for at most so many steps from either end.
+const ROOM_STEPS: u64 = 5_000;
 
 /// Paths that are announced to the observer while they improve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,9 +61,9 @@ impl Query<'_> {
         let task = ImproveProblem {
             obstacles: self.task.obstacles(),
             body: ground.body(),
-            radius_m: ground.radius_m(),
             gears: self.problem.gears(),
-            cost: &self.parameters.cost,
+            end: Some(self.problem.region()).filter(|region| region.has_room()),
+            cost: &self.cost,
             soft: soft.is_some().then_some(&price),
         };
         let thorough = &self.parameters.improve;
@@ -73,11 +82,11 @@ impl Query<'_> {
             n_tried: 0,
         };
         best.announce(&best.path, limits);
-        let ended = best.run(first, limits).err();
+        let ended = best.run(first, limits);
         Improvement {
             path: best.path,
             cost_m: best.cost_m,
-            ended,
+            ended: ended.err(),
         }
     }
 }
@@ -97,30 +106,58 @@ struct Best<'a> {
 
 impl Best<'_> {
     fn run(&mut self, first: FirstPath, limits: &mut Limits) -> Result<(), Status> {
-        let rules = self.query.rules();
         self.offer(first.path, limits)?;
-        self.heed_soft_costs(&rules, limits)?;
-        let Some(RaceStage {
+        self.heed_soft_costs(limits)?;
+        if first.is_mended {
+            return Ok(());
+        }
+        let is_direct = first.stage.is_none();
+        match first.stage {
+            Some(stage) => self.search_on(stage, limits)?,
+            None => self.doubt_a_curve(limits)?,
+        }
+        let wish_m = self.query.cost.clearance_wish_m;
+        if is_direct && self.least_clearance_m() >= 0.5 * wish_m {
+            return Ok(());
+        }
+        self.search_with_room(limits)
+    }
+
+    /// Searches by the whole cost where the first path, a single curve, is dear beside the cheapest
+    /// curve on open ground.
+    fn doubt_a_curve(&mut self, limits: &mut Limits) -> Result<(), Status> {
+        let least_m = self.query.problem.least_curve_m(&self.query.cost);
+        if self.summed_m() < GOOD_RATIO * least_m {
+            return Ok(());
+        }
+        self.search_by_full_cost(limits).map(|_| ())
+    }
+
+    /// Goes on with the stage that found the first path: hybrid A* where ants were faster, a search
+    /// by the whole cost and focused ants where the best path is still dear.
+    fn search_on(&mut self, stage: RaceStage, limits: &mut Limits) -> Result<(), Status> {
+        let rules = self.query.rules();
+        let RaceStage {
             problem,
             mut guide,
             hybrid,
-        }) = first.stage
-        else {
-            return Ok(());
-        };
+        } = stage;
         let start = problem.starts().first().map(|pose| pose.position());
         let least_m = start.and_then(|start| guide.estimate_m(&problem, start));
-        let is_good = |cost_m: f64| least_m.is_some_and(|least_m| cost_m < GOOD_RATIO * least_m);
+        let is_good = |best: &Self| least_m.is_some_and(|m| best.summed_m() < GOOD_RATIO * m);
         if let Some(mut hybrid) = hybrid {
-            let doubts = if is_good(self.cost_m) { 1 } else { MORE_STEPS };
+            let doubts = if is_good(self) { 1 } else { MORE_STEPS };
             match hybrid.run(&mut guide, doubts * rules.config.second_steps, limits) {
                 Ok(Some(path)) => self.offer(path, limits)?,
                 Ok(None) | Err(Status::NoPath) => {}
                 Err(status) => return Err(status),
             }
         }
+        if is_good(self) || self.search_by_full_cost(limits)? {
+            return Ok(());
+        }
         let sends_none = rules.config.n_stalled == 0 || rules.config.n_ants == 0;
-        if is_good(self.cost_m) || sends_none || problem.side() == Side::Goal {
+        if is_good(self) || sends_none || problem.side() == Side::Goal {
             return Ok(());
         }
         let ants = (rules.seed, rules.n_threads);
@@ -130,19 +167,71 @@ impl Best<'_> {
         ended
     }
 
+    /// The cost of the best path without the price of its least clearance: what can be compared
+    /// with a length.
+    fn summed_m(&self) -> f64 {
+        let (start, arcs) = &self.path;
+        let cost = self.query.cost.without_least_clearance();
+        self.query.path_m(&cost, *start, arcs)
+    }
+
     /// With soft costs, offers a path that hybrid A* finds by them: local search alone would not
     /// find the way around unwanted ground.
-    fn heed_soft_costs(&mut self, rules: &Rules, limits: &mut Limits) -> Result<(), Status> {
+    fn heed_soft_costs(&mut self, limits: &mut Limits) -> Result<(), Status> {
         let Some(costs) = self.query.task.soft_costs() else {
             return Ok(());
         };
         let problem = self.query.problem.clone().with_soft_costs(Some(costs));
-        let n_steps = MORE_STEPS * rules.config.second_steps;
-        match limits.within(n_steps, |limits| hybrid_astar(&problem, limits)) {
-            Ok(path) => self.offer(path, limits),
-            Err(status @ (Status::TimedOut | Status::Cancelled)) => Err(status),
-            Err(_) => Ok(()),
+        let n_steps = MORE_STEPS * self.query.rules().config.second_steps;
+        match search_within(n_steps, &problem, limits)? {
+            Some(path) => self.offer(path, limits),
+            None => Ok(()),
         }
+    }
+
+    /// Offers the paths that hybrid A* finds from either end by the whole cost: the first path may
+    /// be a maneuver that local search does not leave. Returns whether there were any.
+    fn search_by_full_cost(&mut self, limits: &mut Limits) -> Result<bool, Status> {
+        let mut is_found = false;
+        let whole = self.query.problem.at_full_cost();
+        for problem in [whole.swapped(), Some(whole)].into_iter().flatten() {
+            if let Some(path) = search_within(FULL_COST_STEPS, &problem, limits)? {
+                is_found = true;
+                self.offer(path, limits)?;
+            }
+        }
+        Ok(is_found)
+    }
+
+    /// Offers the paths that hybrid A* finds from either end where motions keep a clearance: half
+    /// the wish, or by halves less. The most that the ends allow is always tried, since a guide
+    /// that keeps off obstacles may know another way around; less only if the best path keeps less
+    /// still.
+    fn search_with_room(&mut self, limits: &mut Limits) -> Result<(), Status> {
+        if !self.query.cost.counts_least_clearance() {
+            return Ok(());
+        }
+        let wish_m = self.query.cost.clearance_wish_m;
+        let rooms_m = (1..=N_ROOMS).map(|n| 0.5_f64.powi(n) * wish_m);
+        let query = self.query;
+        let problems = rooms_m.filter_map(|room_m| Some((room_m, query.problem.keeping(room_m)?)));
+        for (place, (room_m, problem)) in problems.enumerate() {
+            if place > 0 && room_m < MORE_ROOM * self.least_clearance_m() {
+                break;
+            }
+            for problem in [problem.swapped(), Some(problem)].into_iter().flatten() {
+                if let Some(path) = search_within(ROOM_STEPS, &problem, limits)? {
+                    self.try_quickly(path, limits)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The least clearance of the best path, meters, at most the wish.
+    fn least_clearance_m(&self) -> f64 {
+        let (start, arcs) = &self.path;
+        self.query.least_clearance_m(*start, arcs)
     }
 
     /// Sends focused ants until so many generations gained nothing.
@@ -171,9 +260,8 @@ impl Best<'_> {
 
     /// Improves a path, and keeps it where it is the cheapest.
     fn offer(&mut self, (start, arcs): Driven, limits: &mut Limits) -> Result<(), Status> {
-        let length_m = |arcs: &[Arc]| arcs.iter().map(|arc| arc.length_m()).sum::<f64>();
-        let is_long = length_m(&arcs) > WORTH_RATIO * length_m(&self.path.1);
-        if self.cost_m.is_finite() && is_long && self.query.task.soft_costs().is_none() {
+        let is_dear = self.query.cost.open_path_m(&arcs) > WORTH_RATIO * self.cost_m;
+        if self.cost_m.is_finite() && is_dear && self.query.task.soft_costs().is_none() {
             return Ok(());
         }
         let seed = self.next_seed();
@@ -221,5 +309,22 @@ impl Best<'_> {
         if self.announce == Announce::Certified {
             self.query.announce_if_certified(*start, arcs, limits);
         }
+    }
+}
+
+/// Searches for some steps; none where they do not suffice.
+///
+/// # Errors
+/// Budget, deadline or cancel.
+fn search_within(
+    n_steps: u64,
+    problem: &DriveProblem,
+    limits: &mut Limits,
+) -> Result<Option<Driven>, Status> {
+    match limits.within(n_steps, |limits| hybrid_astar(problem, limits)) {
+        Ok(path) => Ok(Some(path)),
+        Err(status @ (Status::TimedOut | Status::Cancelled)) => Err(status),
+        Err(_) if limits.is_exhausted() => Err(Status::BudgetExhausted),
+        Err(_) => Ok(None),
     }
 }

@@ -23,10 +23,12 @@ impl Family for FormicarParameters {
     /// Finds a path and improves it.
     fn find(&self, task: &mut Task<'_>, limits: &mut Limits<'_>) -> Result<Found, Halt> {
         let ground = task.drive_ground(&self.hybrid_astar)?;
+        let cost = self.cost.of_vehicle(task.vehicle());
         let query = Query {
             task,
             parameters: self,
-            problem: &DriveProblem::new(&ground, &self.hybrid_astar, task.request()),
+            cost,
+            problem: &DriveProblem::new(&ground, &self.hybrid_astar, &cost, task.request()),
         };
         limits.tell(&Event::SearchStarted);
         let first = race(query.problem, &query.rules(), limits)?;

@@ -3,7 +3,8 @@
 use super::config::FormicarParameters;
 use super::improve::{Announce, Improvement};
 use super::race::{FirstPath, Rules};
-use crate::geometry::{Arc, Pose2};
+use crate::geometry::{Arc, Point2, Pose2};
+use crate::objective::{DriveMeter, VehicleCost};
 use crate::path::CurvePath;
 use crate::planner::{Ended, Found, Task};
 use crate::progress::{Limits, Status};
@@ -14,6 +15,8 @@ use crate::validation::judge;
 pub(super) struct Query<'a> {
     pub(super) task: &'a Task<'a>,
     pub(super) parameters: &'a FormicarParameters,
+    /// What driving costs the vehicle.
+    pub(super) cost: VehicleCost,
     pub(super) problem: &'a DriveProblem<'a>,
 }
 
@@ -22,6 +25,7 @@ impl Query<'_> {
     pub(super) fn rules(&self) -> Rules<'_> {
         Rules {
             config: &self.parameters.drive,
+            cost: self.cost,
             seed: self.task.seed(),
             n_threads: self.task.n_threads(),
         }
@@ -35,6 +39,23 @@ impl Query<'_> {
         let mut found = self.task.driven(improved.path.0, &improved.path.1);
         found.cut_by = improved.ended;
         Ok(found)
+    }
+
+    /// The cost of a driven path by some weights, with soft costs, meters.
+    pub(super) fn path_m(&self, cost: &VehicleCost, start: Pose2, arcs: &[Arc]) -> f64 {
+        let meter = DriveMeter::new(self.task.obstacles(), self.problem.map().body(), cost);
+        let Some(costs) = self.task.soft_costs() else {
+            return meter.path_m(start, arcs);
+        };
+        let price = |position: Point2| costs.price_at(position);
+        meter.with_soft_cost(&price).path_m(start, arcs)
+    }
+
+    /// The least clearance of a driven path, meters, at most the wish.
+    pub(super) fn least_clearance_m(&self, start: Pose2, arcs: &[Arc]) -> f64 {
+        let body = self.problem.map().body();
+        let meter = DriveMeter::new(self.task.obstacles(), body, &self.cost);
+        meter.path_least_clearance_m(start, arcs)
     }
 
     /// Announces a path to the observer where the judge certifies it.
@@ -76,7 +97,11 @@ impl Query<'_> {
             let improved = self.improve(anew?, Announce::Certified, limits);
             return self.found(&improved);
         };
-        let mended = FirstPath { path, stage: None };
+        let mended = FirstPath {
+            path,
+            stage: None,
+            is_mended: true,
+        };
         let old = self.improve(mended, Announce::Certified, limits);
         let mut found = self.found(&old)?;
         let anew = match anew {

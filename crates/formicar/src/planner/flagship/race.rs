@@ -3,6 +3,7 @@
 
 use crate::colony::drive::{DriveColony, DriveConfig, Racers};
 use crate::numeric::Seed;
+use crate::objective::VehicleCost;
 use crate::progress::{Limits, Status};
 use crate::search::{DriveProblem, Driven, Guide, HybridSearch, Stage};
 
@@ -16,6 +17,8 @@ const N_GENERATIONS: u32 = 60;
 /// The rules of a race.
 pub(super) struct Rules<'a> {
     pub(super) config: &'a DriveConfig,
+    /// What driving costs the vehicle.
+    pub(super) cost: VehicleCost,
     pub(super) seed: Seed,
     pub(super) n_threads: usize,
 }
@@ -25,6 +28,8 @@ pub(super) struct FirstPath<'a> {
     pub(super) path: Driven,
     /// The stage that found it; none where a single curve was free.
     pub(super) stage: Option<RaceStage<'a>>,
+    /// A previous path made whole: no other takes its place.
+    pub(super) is_mended: bool,
 }
 
 /// A stage as it stands when the first path is found.
@@ -44,8 +49,12 @@ pub(super) fn race<'a>(
     rules: &Rules,
     limits: &mut Limits,
 ) -> Result<FirstPath<'a>, Status> {
-    if let Some(path) = straight_shot(problem) {
-        return Ok(FirstPath { path, stage: None });
+    if let Some(path) = problem.cheapest_curve(&rules.cost) {
+        return Ok(FirstPath {
+            path,
+            stage: None,
+            is_mended: false,
+        });
     }
     let n_before = limits.n_steps();
     for (place, stage) in Stage::ladder(problem).enumerate() {
@@ -78,17 +87,6 @@ pub(super) fn race<'a>(
         return Err(Status::BudgetExhausted);
     }
     Err(Status::NoPath)
-}
-
-/// A curve from a start to a goal that meets nothing.
-fn straight_shot(problem: &DriveProblem) -> Option<Driven> {
-    let shots = problem.start_states().filter_map(|start| {
-        let (arcs, cost) = problem.shot(&start)?;
-        Some((cost, (start.pose, arcs)))
-    });
-    shots
-        .min_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, path)| path)
 }
 
 /// The turns of one stage.
@@ -146,6 +144,7 @@ fn run<'a>(
             guide,
             hybrid,
         }),
+        is_mended: false,
     }))
 }
 

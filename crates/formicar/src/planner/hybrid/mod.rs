@@ -13,8 +13,8 @@ sections! {
     HybridAstarParameters {
         /// Parameters of the search.
         hybrid_astar: HybridAstarConfig,
-        /// Weights of transitions, where a request asks for continuous curvature.
-        #[cfg_attr(feature = "serde", serde(skip_serializing_if = "DriveCost::is_default"))]
+        /// Cost of driving: of motions, and of transitions where a request asks for continuous
+        /// curvature.
         cost: DriveCost,
     }
 }
@@ -70,7 +70,8 @@ impl HybridAstarParameters {
         limits: &mut Limits,
     ) -> Result<Found, Halt> {
         let ground = task.drive_ground(&self.hybrid_astar)?;
-        let problem = DriveProblem::new(&ground, &self.hybrid_astar, task.request());
+        let cost = self.cost.of_vehicle(task.vehicle());
+        let problem = DriveProblem::new(&ground, &self.hybrid_astar, &cost, task.request());
         let (start, arcs) = hybrid_astar(&problem.with_soft_costs(costs), limits)?;
         Ok(task.driven(start, &arcs))
     }

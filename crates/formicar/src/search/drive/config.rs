@@ -1,11 +1,11 @@
 //! Parameters of hybrid A*.
 
-use crate::collision::MIN_CLEARANCE_M;
-use crate::objective::{DriveCost, Falloff};
+use crate::objective::VehicleCost;
 use crate::parameters::parameters;
 
 parameters! {
-    /// Parameters of hybrid A*; costs are in meters of forward driving.
+    /// Parameters of hybrid A*. What motions cost is in the section `cost`, but for what only a
+    /// search over motions needs.
     pub struct HybridAstarConfig {
         /// Weight of the heuristic: at 1 the path is near the best on the lattice, more is faster.
         #[range(1.0..=10.0)]
@@ -20,41 +20,41 @@ parameters! {
         /// one and a half map cells.
         #[range(0.05..=1.0)]
         pub step_radii: f64 = 0.25,
-        /// Factor on the length driven in reverse.
-        #[range(1.0..=100.0)]
-        pub reverse_penalty: f64 = 2.0,
-        /// Cost of a change of gear, meters.
-        #[range(0.0..=1000.0)]
-        pub direction_switching_cost: f64 = 1.0,
+        /// The share of the surcharges for reverse, changes of gear and nearness that the search
+        /// counts: with 1 it looks for the cheapest path, with less it finds one sooner.
+        #[range(0.0..=1.0)]
+        pub cost_share: f64 = 0.1,
         /// Added to the factor on an arc that steers the other way than the motion before.
         #[range(0.0..=100.0)]
         pub change_penalty: f64 = 0.0,
         /// Factor on the length driven with the wheels turned.
         #[range(1.0..=100.0)]
         pub non_straight_penalty: f64 = 1.07,
-        /// Factor on length near obstacles: 1 + `cost_penalty` at contact, falling to 1 at
-        /// `clearance_wish_m`.
-        #[range(0.0..=100.0)]
-        pub cost_penalty: f64 = 1.0,
-        /// Clearance from which on obstacles no longer count, meters.
-        #[range(0.0..=100.0)]
-        pub clearance_wish_m: f64 = 0.3,
     }
 }
 
 impl HybridAstarConfig {
-    /// The cost of motions.
-    pub fn cost(&self) -> DriveCost {
-        DriveCost {
-            reverse_factor: self.reverse_penalty,
-            gear_switch_m: self.direction_switching_cost,
+    /// The cost of motions: that of driving, and what turned wheels cost a search. Jumps and bends
+    /// are priced by the factor on turned wheels alone, since motions cannot choose their radius.
+    pub fn cost_of_motions(&self, cost: &VehicleCost) -> VehicleCost {
+        self.share_of(cost, self.cost_share)
+    }
+
+    /// The same with every surcharge counted in full.
+    pub fn full_cost_of_motions(&self, cost: &VehicleCost) -> VehicleCost {
+        self.share_of(cost, 1.0)
+    }
+
+    fn share_of(&self, cost: &VehicleCost, share: f64) -> VehicleCost {
+        VehicleCost {
             turn_factor: self.non_straight_penalty,
             swing_factor: self.change_penalty,
-            clearance_weight: self.cost_penalty,
-            // Clearances below the least one are not measured.
-            clearance_wish_m: self.clearance_wish_m.max(2.0 * MIN_CLEARANCE_M),
-            falloff: Falloff::Linear,
-            ..DriveCost::length_alone()
+            reverse_factor: 1.0 + share * (cost.reverse_factor - 1.0),
+            gear_switch_m: share * cost.gear_switch_m,
+            clearance_weight: share * cost.clearance_weight,
+            curvature_change_weight: 0.0,
+            bend_weight: 0.0,
+            ..*cost
         }
     }
 }

@@ -12,14 +12,14 @@ use std::sync::OnceLock;
 pub(super) struct DrivableCells {
     pub(super) padded: PaddedGrid,
     /// Moves on obstacles grown by each inflation, made when they are first needed.
-    moves: [OnceLock<MoveMasks>; 3],
+    moves: [OnceLock<MoveMasks>; 4],
     /// Radii of inflation from cell center to cell center, cells.
-    radii_cells: [f64; 3],
+    radii_cells: [f64; 4],
 }
 
 impl DrivableCells {
     /// Prepares a map for masks of a reach, and for inflation by radii.
-    pub(super) fn new(obstacles: &ObstacleMap, reach_cells: usize, inflations_m: [f64; 3]) -> Self {
+    pub(super) fn new(obstacles: &ObstacleMap, reach_cells: usize, inflations_m: [f64; 4]) -> Self {
         let resolution_m = obstacles.frame().resolution_m();
         Self {
             padded: PaddedGrid::new(obstacles.lethal(), reach_cells),
@@ -121,7 +121,7 @@ mod tests {
             density in 0_usize..60,
             place in (0.0..1.0, 0.0..1.0),
             size in (1_usize..30, 1_usize..30),
-            radii_m in (0.0..20.0, 0.0..8.0, 0.0..3.0),
+            radii_m in (0.0..20.0, 0.0..20.0, 0.0..8.0, 0.0..3.0),
             seed in any::<u64>(),
         ) {
             let mut draw = crate::numeric::Seed(seed).stream([0, 0]);
@@ -135,7 +135,7 @@ mod tests {
             let (width, height) = (size.0.min(n_cols - col), size.1.min(n_rows - row));
             let region = CellRegion::new(Cell::new(col as u32, row as u32), width, height);
             let values: Vec<i8> = (0..width * height).map(|_| [0, OCCUPIED][draw.below(2)]).collect();
-            let radii_m = [radii_m.0, radii_m.1, radii_m.2];
+            let radii_m = [radii_m.0, radii_m.1, radii_m.2, radii_m.3];
             let mut map = ObstacleMap::new(&grid);
             let mut cells = DrivableCells::new(&map, 70, radii_m);
             for inflation in Inflation::ALL {

@@ -139,12 +139,14 @@ impl DrivableMap {
 }
 
 /// Radii of inflation for the goal field, largest first: halfway to the width that the body sweeps
-/// in its tightest turn, which leaves gaps that can mostly be driven; the body's inner disc, which
+/// in its tightest turn, which leaves gaps that can mostly be driven, with a quarter of the body's
+/// width and without; the body's inner disc, which
 /// leaves gaps that are wide enough to drive straight; and the least distance of the rear axle from
 /// any obstacle, which closes no gap wrongly.
-fn inflations_m(body: &Body, vehicle: &Vehicle) -> [f64; 3] {
+fn inflations_m(body: &Body, vehicle: &Vehicle) -> [f64; 4] {
     let sure = vehicle.footprint().inradius().max(0.0);
     let wide = body.inner_radius_m().max(sure);
     let turning = 0.5 * body.swept_width_m(vehicle.min_turning_radius_m());
-    [0.5 * (wide + turning.max(wide)), wide, sure]
+    let between = 0.5 * (wide + turning.max(wide));
+    [between + 0.25 * vehicle.width_m(), between, wide, sure]
 }

@@ -90,7 +90,7 @@ impl DriveProblem<'_> {
         if self.hits(position, along) {
             return None;
         }
-        let dearness = self.dearness(position, along);
+        let dearness = self.dearness(position, along)?;
         Some(State {
             pose: Pose2::at(position, self.primitives().heading_rad(heading_index)),
             heading_index,
@@ -100,10 +100,10 @@ impl DriveProblem<'_> {
         })
     }
 
-    /// Whether the body's inner disc certainly hits something: a look at one cell.
+    /// Whether the body certainly hits something or keeps too little clearance: a look at one cell.
     pub(super) fn hits(&self, position: Point2, along: Point2) -> bool {
         let (obstacles, body) = (self.map.obstacles(), self.map.body());
-        obstacles.ceiling_at_m(body, position, along) < 0.0
+        obstacles.ceiling_at_m(body, position, along) < self.kept_clearance_m
     }
 
     /// Whether a motion from a state is free, by its mask or exactly.

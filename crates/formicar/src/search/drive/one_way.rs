@@ -68,6 +68,7 @@ mod tests {
     use super::*;
     use crate::collision::ObstacleMap;
     use crate::map::OccupancyGrid;
+    use crate::objective::DriveCost;
     use crate::progress::Limits;
     use crate::scenario::Request;
     use crate::search::{DrivableMap, Guide, HybridAstarConfig, Inflation};
@@ -80,13 +81,15 @@ mod tests {
         let map = OccupancyGrid::from_rows(&vec![&row[..]; 150], 0.2).unwrap();
         let obstacles = Arc::new(ObstacleMap::new(&map));
         let config = HybridAstarConfig::default();
-        let map = DrivableMap::new(obstacles, &Vehicle::warehouse_amr(), &config).unwrap();
+        let vehicle = Vehicle::warehouse_amr();
+        let map = DrivableMap::new(obstacles, &vehicle, &config).unwrap();
+        let cost = DriveCost::default().of_vehicle(&vehicle);
         let start = Pose2::new(x, 15.0, 0.0);
         let request = Request {
             gears,
             ..Request::new(start, Pose2::new(15.0, 15.0, 0.0))
         };
-        let problem = DriveProblem::new(&map, &config, &request);
+        let problem = DriveProblem::new(&map, &config, &cost, &request);
         let mut nobody = ();
         let mut limits = Limits::new(&mut nobody, None, None);
         let guide = Guide::new(&problem, Inflation::Wide, &mut limits).unwrap();

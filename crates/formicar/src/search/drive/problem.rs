@@ -3,11 +3,11 @@
 use super::drivable_map::Lattice;
 use super::{DrivableMap, Driven, HybridAstarConfig, Side, State};
 use crate::collision::Drive;
-use crate::geometry::{Arc, Point2, Pose2, angle_difference};
+use crate::geometry::{Arc, Point2, Pose2};
 use crate::layers::SoftCosts;
 use crate::map::Cell;
-use crate::objective::DriveCost;
-use crate::scenario::{GoalTolerance, Request};
+use crate::objective::VehicleCost;
+use crate::scenario::{GoalRegion, Request};
 use crate::vehicle::{Gears, PrimitiveSet};
 
 /// A request on a prepared map, in grid coordinates.
@@ -16,11 +16,13 @@ pub struct DriveProblem<'a> {
     pub(super) map: &'a DrivableMap,
     pub(super) lattice: &'a Lattice,
     pub(super) config: &'a HybridAstarConfig,
-    pub(super) cost: DriveCost,
+    /// Of motions.
+    pub(super) cost: VehicleCost,
+    full_cost: VehicleCost,
     gears: Gears,
     /// Gears of the steps on the way; the last curve may use all of the request's.
     pub(super) step_gears: Gears,
-    tolerance: GoalTolerance,
+    region: GoalRegion,
     pub(super) side: Side,
     starts: Vec<Pose2>,
     goals: Vec<Pose2>,
@@ -29,31 +31,43 @@ pub struct DriveProblem<'a> {
     pub(super) soft_costs: Option<&'a SoftCosts>,
     /// Whether motions that the masks cannot clear are looked at exactly.
     pub(super) is_exact: bool,
+    /// The clearance that the ends of motions keep, meters; 0 where free is enough.
+    pub(super) kept_clearance_m: f64,
 }
 
 impl<'a> DriveProblem<'a> {
     /// Prepares a query: the poses that the heading modes allow.
-    pub fn new(map: &'a DrivableMap, config: &'a HybridAstarConfig, request: &Request) -> Self {
+    pub fn new(
+        map: &'a DrivableMap,
+        config: &'a HybridAstarConfig,
+        cost: &VehicleCost,
+        request: &Request,
+    ) -> Self {
         let obstacles = map.obstacles();
-        let stands_free = |pose: &Pose2| obstacles.is_free(map.body(), &Drive::at(*pose));
-        let free = |poses: Vec<Pose2>| {
-            let in_grid = poses.into_iter().map(|p| obstacles.frame().to_grid(p));
-            in_grid.filter(stands_free).collect()
-        };
+        let to_grid = |pose: Pose2| obstacles.frame().to_grid(pose);
+        let stands_free = |pose| obstacles.is_free(map.body(), &Drive::at(to_grid(pose)));
+        let starts = request.start_poses().into_iter();
+        let goals = request.goals();
+        let goals = goals.flat_map(|goal| request.free_poses_at_goal(goal, stands_free));
         Self {
             map,
             lattice: map.coarse(),
             config,
-            cost: config.cost(),
+            cost: config.cost_of_motions(cost),
+            full_cost: config.full_cost_of_motions(cost),
             gears: request.gears,
             step_gears: request.gears,
-            tolerance: request.goal_tolerance,
+            region: GoalRegion::of(request).map_poses(|pose| obstacles.frame().to_grid(pose)),
             side: Side::Start,
-            starts: free(request.start_poses()),
-            goals: free(request.goal_poses()),
+            starts: starts
+                .filter(|&pose| stands_free(pose))
+                .map(to_grid)
+                .collect(),
+            goals: goals.map(to_grid).collect(),
             n_goals: 1 + request.other_goals.len(),
             soft_costs: None,
             is_exact: false,
+            kept_clearance_m: 0.0,
         }
     }
 
@@ -61,6 +75,16 @@ impl<'a> DriveProblem<'a> {
     #[must_use]
     pub fn with_soft_costs(self, soft_costs: Option<&'a SoftCosts>) -> Self {
         Self { soft_costs, ..self }
+    }
+
+    /// The same query with every surcharge counted in full, for the cheapest path instead of the
+    /// soonest.
+    #[must_use]
+    pub fn at_full_cost(&self) -> Self {
+        Self {
+            cost: self.full_cost,
+            ..self.clone()
+        }
     }
 
     /// The same query on a lattice of steps a quarter as long and headings four times as dense,
@@ -80,6 +104,27 @@ impl<'a> DriveProblem<'a> {
             is_exact: true,
             ..self.clone()
         }
+    }
+
+    /// The same query for paths whose motions end at a clearance, meters; none where no start or
+    /// no goal has that.
+    #[must_use]
+    pub fn keeping(&self, clearance_m: f64) -> Option<Self> {
+        let (obstacles, body) = (self.map.obstacles(), self.map.body());
+        let has_room = |&pose: &Pose2| obstacles.clearance_m(body, pose) >= clearance_m;
+        let with_room = |poses: &[Pose2]| poses.iter().copied().filter(has_room).collect();
+        let problem = Self {
+            starts: with_room(&self.starts),
+            goals: with_room(&self.goals),
+            kept_clearance_m: clearance_m,
+            ..self.clone()
+        };
+        (!problem.starts.is_empty() && !problem.goals.is_empty()).then_some(problem)
+    }
+
+    /// True for a query of paths whose motions end at some clearance.
+    pub fn keeps_clearance(&self) -> bool {
+        self.kept_clearance_m > 0.0
     }
 
     /// The same query from the other end: the surroundings of a tight end are best searched from
@@ -139,7 +184,12 @@ impl<'a> DriveProblem<'a> {
         &self.starts
     }
 
-    /// The goal poses.
+    /// The poses at which a path may end.
+    pub fn region(&self) -> &GoalRegion {
+        &self.region
+    }
+
+    /// Goal poses at which the vehicle can stand.
     pub fn goals(&self) -> &[Pose2] {
         &self.goals
     }
@@ -186,15 +236,11 @@ impl<'a> DriveProblem<'a> {
         starts.map(|&pose| State::start(pose, Arc::default()))
     }
 
-    /// Whether a pose is a goal pose within the tolerance; a start must be met by a curve.
+    /// Whether a path may end at a pose; a start must be met by a curve.
     pub fn at_goal(&self, pose: Pose2) -> bool {
         if self.side == Side::Goal {
             return false;
         }
-        let GoalTolerance { xy_m, yaw_rad } = self.tolerance;
-        self.goals.iter().any(|goal| {
-            pose.position().distance(goal.position()) <= xy_m
-                && angle_difference(pose.heading, goal.heading).abs() <= yaw_rad
-        })
+        self.region.contains(pose)
     }
 }

@@ -1,11 +1,14 @@
 //! Analytic expansion: curves straight to the goal.
 
-use super::{DriveProblem, Guide, State};
+use super::{DriveProblem, Driven, Guide, State};
 use crate::geometry::{Arc, Curve, Point2, Pose2, dubins, reeds_shepp};
+use crate::objective::{DriveMeter, VehicleCost};
 use crate::vehicle::Gears;
 
 /// Words tried per goal, shortest first.
 const MAX_WORDS: usize = 6;
+/// Curves from starts to goals that are looked at for a first path.
+const MOST_CURVES: usize = 200;
 /// Most goals for which words are granted; with more goals, the nearest get most of the words.
 const MAX_COUNTED_GOALS: usize = 4;
 
@@ -48,6 +51,55 @@ impl DriveProblem<'_> {
         Some((curve.arcs().to_vec(), cost))
     }
 
+    /// The cheapest free curve from a start to a goal pose among all words, as the cost of driving
+    /// prices paths.
+    ///
+    /// Words are priced in the order of their cost on open ground, a lower bound, until none can
+    /// be cheaper than the best.
+    pub fn cheapest_curve(&self, cost: &VehicleCost) -> Option<Driven> {
+        let (obstacles, body) = (self.map().obstacles(), self.map().body());
+        let meter = DriveMeter::new(obstacles, body, cost);
+        let mut drafts: Vec<(f64, Pose2, Curve)> = Vec::new();
+        for &start in self.starts() {
+            for &goal in self.goals() {
+                let words = self.words(start, goal).into_iter();
+                drafts.extend(words.map(|word| (cost.open_path_m(word.arcs()), start, word)));
+            }
+        }
+        drafts.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut best: Option<(f64, Driven)> = None;
+        for (bound_m, start, word) in drafts.into_iter().take(MOST_CURVES) {
+            let best_m = best.as_ref().map_or(f64::INFINITY, |best| best.0);
+            if bound_m >= best_m {
+                break;
+            }
+            let mut ends = word
+                .placed_arcs(start)
+                .map(|(start, arc)| arc.end_from(start));
+            if ends.any(|end| self.hits(end.position(), Point2::unit(end.heading))) {
+                continue;
+            }
+            let mut arcs = word.placed_arcs(start);
+            if !arcs.all(|(start, arc)| self.is_arc_free(start, arc)) {
+                continue;
+            }
+            let cost_m = meter.path_m(start, word.arcs());
+            if cost_m < best_m {
+                best = Some((cost_m, (start, word.arcs().to_vec())));
+            }
+        }
+        best.map(|(_, path)| path)
+    }
+
+    /// The cost of the cheapest curve from a start to a goal pose on open ground.
+    pub fn least_curve_m(&self, cost: &VehicleCost) -> f64 {
+        let starts = self.starts().iter();
+        let pairs = starts.flat_map(|&start| self.goals().iter().map(move |&goal| (start, goal)));
+        let words = pairs.flat_map(|(start, goal)| self.words(start, goal));
+        let costs = words.map(|word| cost.open_path_m(word.arcs()));
+        costs.fold(f64::INFINITY, f64::min)
+    }
+
     fn words(&self, from: Pose2, to: Pose2) -> Vec<Curve> {
         let radius_m = self.map().radius_m();
         match self.gears() {
@@ -68,7 +120,7 @@ impl DriveProblem<'_> {
                 if self.hits(position, along) {
                     return None;
                 }
-                total += self.cost(before, piece, self.dearness(position, along));
+                total += self.cost(before, piece, self.dearness(position, along)?);
                 before = arc;
             }
         }

@@ -19,6 +19,8 @@ pub struct FieldGrid {
 /// The radius by which obstacles are inflated for the goal field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Inflation {
+    /// A quarter of the body's width more than `Turning`: a way around with room to spare.
+    Roomy,
     /// Halfway to what the body sweeps in its tightest turn.
     Turning,
     /// The body's inner disc.
@@ -29,7 +31,7 @@ pub enum Inflation {
 
 impl Inflation {
     /// All of them, the largest first.
-    pub const ALL: [Self; 3] = [Self::Turning, Self::Wide, Self::Sure];
+    pub const ALL: [Self; 4] = [Self::Roomy, Self::Turning, Self::Wide, Self::Sure];
 }
 
 /// The end from which a search starts.

@@ -68,11 +68,13 @@ impl<'a> Stage<'a> {
     /// A guide that leads astray, or a tight place at the other end, must not cost all the time
     /// there is: patience is short where hope is small, and unbounded only at the end.
     pub fn ladder(problem: &DriveProblem<'a>) -> impl Iterator<Item = Self> + use<'a> {
-        use Inflation::{Sure, Turning, Wide};
+        use Inflation::{Roomy, Sure, Turning, Wide};
         let (coarse, exact, fine) = (problem.clone(), problem.exact(), problem.refined());
         let from_goal = problem.swapped();
         let (exact_from_goal, fine_from_goal) = (exact.swapped(), fine.swapped());
+        let roomy = problem.keeps_clearance().then(|| coarse.clone());
         let stages = [
+            (roomy, Roomy, PATIENCE_STEPS),
             (Some(coarse.clone()), Turning, PATIENCE_STEPS),
             (from_goal, Turning, PATIENCE_STEPS),
             (Some(exact.clone()), Wide, PATIENCE_STEPS),

@@ -128,8 +128,8 @@ impl Continuity<'_> {
 
     /// Cost of passing near obstacles along a chain, meters.
     fn nearness_m(&self, body: &Body, chain: &Chain, start: Pose2) -> f64 {
-        let radius_m = self.vehicle.min_turning_radius_m();
-        let meter = DriveMeter::new(self.obstacles, body, self.cost, radius_m);
+        let cost = self.cost.of_vehicle(self.vehicle);
+        let meter = DriveMeter::new(self.obstacles, body, &cost);
         let drives = self.drives(chain, start);
         let parts = drives.flat_map(|drive| drive.arcs(body, TOLERANCES_M[0]));
         let around_m = |part: NearbyDrive| {

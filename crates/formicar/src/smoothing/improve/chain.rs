@@ -8,8 +8,12 @@ use crate::geometry::{Arc, Pose2};
 pub(super) struct Piece {
     pub(super) start: Pose2,
     pub(super) arc: Arc,
-    /// Cost in its place, meters, without joints.
-    pub(super) cost_m: f64,
+    /// Cost on open ground, meters, without joints.
+    pub(super) open_m: f64,
+    /// Cost of passing near obstacles, meters.
+    pub(super) around_m: f64,
+    /// Its least clearance, meters; at most the wish.
+    pub(super) least_m: f64,
     /// Driven length before it, meters.
     pub(super) from_m: f64,
 }
@@ -51,6 +55,11 @@ pub(super) struct PathPosition {
 pub(super) struct Chain {
     pub(super) pieces: Vec<Piece>,
     pub(super) length_m: f64,
+    /// Cost of pieces and joints on open ground, meters.
+    pub(super) open_m: f64,
+    /// Cost of passing near obstacles, meters.
+    pub(super) around_m: f64,
+    /// Cost of the path, meters.
     pub(super) cost_m: f64,
 }
 
@@ -67,13 +76,19 @@ impl Chain {
             Piece {
                 start,
                 arc,
-                cost_m: task.meter.arc_m(start, arc),
+                open_m: task.meter.open_ground_m(arc),
+                around_m: task.meter.around_m(start, arc, f64::INFINITY),
+                least_m: task
+                    .meter
+                    .least_clearance_m(start, arc, [0.0, f64::INFINITY]),
                 from_m: 0.0,
             }
         };
         let mut chain = Self {
             pieces: arcs.iter().map(piece_along).collect(),
             length_m: 0.0,
+            open_m: 0.0,
+            around_m: 0.0,
             cost_m: 0.0,
         };
         chain.measure(task);
@@ -88,9 +103,9 @@ impl Chain {
             from_m += piece.arc.length_m();
         }
         self.length_m = from_m;
-        let joints = self.pieces.windows(2);
-        let joints = joints.map(|w| task.meter.joint_m(w[0].arc, w[1].arc));
-        self.cost_m = self.pieces.iter().map(|p| p.cost_m).sum::<f64>() + joints.sum::<f64>();
+        self.open_m = open_m(task, &self.pieces);
+        self.around_m = self.pieces.iter().map(|piece| piece.around_m).sum();
+        self.cost_m = path_m(task, self.open_m, self.around_m, least_m(&self.pieces));
     }
 
     pub(super) fn arcs(&self) -> Vec<Arc> {
@@ -134,4 +149,21 @@ impl Chain {
         let cusps = joints.filter(|w| w[0].is_forward() != w[1].is_forward());
         cusps.map(|w| w[1].from_m).collect()
     }
+}
+
+/// The cost of pieces and the joints between them on open ground, meters.
+pub(super) fn open_m(task: &ImproveTask, pieces: &[Piece]) -> f64 {
+    let joints = pieces.windows(2);
+    let joints = joints.map(|w| task.meter.joint_m(w[0].arc, w[1].arc));
+    pieces.iter().map(|piece| piece.open_m).sum::<f64>() + joints.sum::<f64>()
+}
+
+/// The cost of a path from that on open ground, that of nearness, and the least clearance.
+pub(super) fn path_m(task: &ImproveTask, open_m: f64, around_m: f64, least_m: f64) -> f64 {
+    open_m + around_m + task.meter.least_clearance_price_m(open_m, least_m)
+}
+
+/// The least clearance of pieces, meters; at most the wish.
+pub(super) fn least_m(pieces: &[Piece]) -> f64 {
+    pieces.iter().fold(f64::INFINITY, |m, p| m.min(p.least_m))
 }

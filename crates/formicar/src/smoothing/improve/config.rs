@@ -24,6 +24,9 @@ parameters! {
         /// changes, the other tries take it.
         #[range(0.0..=1000.0)]
         pub cusp_share: f64 = 0.3,
+        /// Share of tries that move the end within the goal tolerance, where there is one.
+        #[range(0.0..=1000.0)]
+        pub end_share: f64 = 0.2,
         /// Most systematic passes over all pieces of the path, before and after the random tries.
         #[range(0..=1000)]
         pub polish_passes: u32 = 1,

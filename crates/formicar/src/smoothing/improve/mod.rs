@@ -1,7 +1,8 @@
-//! Improvement of driven paths: a free chain of arcs becomes a cheaper one between the same poses.
+//! Improvement of driven paths: a free chain of arcs becomes a cheaper one from the same start to
+//! the same end or, where that has a tolerance, to a better one.
 //!
-//! Local search with three operators: connect two places of the path by another curve, move a place
-//! and connect it anew on both sides, replace a change of gear with its surroundings. Curves are
+//! Local search with four operators: connect two places of the path by another curve, move a place
+//! and connect it anew on both sides, replace a change of gear with its surroundings, move the end. Curves are
 //! Dubins and Reeds-Shepp words, arcs of two different radii along a common tangent, and rounded
 //! corners. Lower bounds reject most curves after a few operations; the cost of the others is
 //! integrated along their path, and those that still gain are checked exactly.
@@ -18,8 +19,9 @@ pub use config::ImproveConfig;
 use crate::collision::{Body, ObstacleMap};
 use crate::geometry::{Arc, Pose2, angle_difference};
 use crate::numeric::{RandomStream, Seed};
-use crate::objective::{DriveCost, DriveMeter, SoftCost};
+use crate::objective::{DriveMeter, SoftCost, VehicleCost};
 use crate::progress::{Limits, Status};
+use crate::scenario::GoalRegion;
 use crate::vehicle::Gears;
 use chain::Chain;
 use operators::Attempt;
@@ -32,12 +34,12 @@ pub struct ImproveProblem<'a> {
     pub obstacles: &'a ObstacleMap,
     /// The vehicle's body.
     pub body: &'a Body,
-    /// The vehicle's least turning radius, meters.
-    pub radius_m: f64,
     /// Gears that may be used.
     pub gears: Gears,
+    /// The poses at which paths may end; none where they end as they do.
+    pub end: Option<&'a GoalRegion>,
     /// Cost of driving.
-    pub cost: &'a DriveCost,
+    pub cost: &'a VehicleCost,
     /// Additional cost of positions.
     pub soft: Option<SoftCost<'a>>,
 }
@@ -71,6 +73,8 @@ const TRIES_PER_ROUND: u64 = 64;
 const REPORT_GAIN: f64 = 1e-4;
 /// Largest distance of the end of a chain from its goal by rounding, meters and radians.
 const END_TOLERANCE: f64 = 1e-9;
+/// Tries to move the end in a systematic pass.
+const END_TRIES: usize = 16;
 /// Numbers of pieces that a systematic pass replaces at once, in this order.
 const SPANS: [usize; 6] = [32, 16, 8, 4, 3, 2];
 
@@ -80,19 +84,20 @@ impl<'a> Improver<'a> {
         let ImproveProblem {
             obstacles,
             body,
-            radius_m,
             gears,
+            end,
             cost,
             soft,
         } = *problem;
-        let meter = DriveMeter::new(obstacles, body, cost, radius_m);
+        let meter = DriveMeter::new(obstacles, body, cost);
         let meter = soft.map_or(meter, |soft| meter.with_soft_cost(soft));
         Self {
             task: ImproveTask {
                 obstacles,
                 body,
-                radius_m,
+                radius_m: cost.radius_m,
                 gears,
+                end,
                 meter,
                 config,
             },
@@ -101,7 +106,7 @@ impl<'a> Improver<'a> {
 
     /// Makes a free chain of arcs cheaper until tries cease to gain or a limit ends the search.
     /// Every chain that `on_improved` receives is free, is cheaper than the one before, and ends
-    /// where the first one ends, within 1e-9.
+    /// where the first one ends, within 1e-9, or where the problem allows it to end.
     pub fn improve(
         &self,
         (start, arcs): (Pose2, &[Arc]),
@@ -179,6 +184,11 @@ impl LocalSearch<'_, '_, '_> {
                 } else {
                     config.cusp_share
                 },
+                if self.task.end.is_some() {
+                    config.end_share
+                } else {
+                    0.0
+                },
             ];
             let mut drawn = stream.range(0.0, shares.iter().sum());
             let mut attempt = self.attempt(stream);
@@ -188,8 +198,10 @@ impl LocalSearch<'_, '_, '_> {
                 drawn -= shares[0];
                 if drawn < shares[1] {
                     attempt.shift();
-                } else if shares[2] > 0.0 {
+                } else if drawn < shares[1] + shares[2] {
                     attempt.without_cusp(&cusps_m);
+                } else if shares[3] > 0.0 {
+                    attempt.move_end();
                 }
             }
             n_stalled += 1;
@@ -214,9 +226,25 @@ impl LocalSearch<'_, '_, '_> {
             for span in SPANS {
                 self.pass(span)?;
             }
+            self.move_end()?;
             if self.chain.cost_m >= before_m * (1.0 - self.task.config.stall_gain) {
                 break;
             }
+        }
+        Ok(())
+    }
+
+    /// Tries other ends, where the path may end elsewhere.
+    fn move_end(&mut self) -> Result<(), Status> {
+        if self.task.end.is_none() || self.task.config.end_share == 0.0 {
+            return Ok(());
+        }
+        for _ in 0..END_TRIES {
+            if self.n_tries >= self.task.config.max_tries || self.chain.pieces.is_empty() {
+                break;
+            }
+            let stream = self.begin()?;
+            self.attempt(stream).move_end();
         }
         Ok(())
     }
@@ -279,6 +307,9 @@ impl LocalSearch<'_, '_, '_> {
             pose = arc.end_from(pose);
             self.task.is_free(start, arc)
         });
+        if let Some(end) = self.task.end {
+            return is_free && end.contains(pose);
+        }
         let apart_m = pose.position().distance(self.goal.position());
         let apart_rad = angle_difference(pose.heading, self.goal.heading).abs();
         is_free && apart_m <= END_TOLERANCE && apart_rad <= END_TOLERANCE

@@ -76,7 +76,56 @@ impl Attempt<'_> {
         } else {
             self.gears_between(from, to)
         };
-        let curves = self.curves([from, to], &gears);
+        let end = self.chain.pose(to);
+        self.join_to([from, to], end, &gears)
+    }
+
+    /// Ends the path elsewhere within the goal's tolerance: before its end, or at a pose that a
+    /// curve leads to; returns whether the path became cheaper.
+    pub(super) fn move_end(&mut self) -> bool {
+        let Some(region) = self.task.end else {
+            return false;
+        };
+        let length_m = self.chain.length_m;
+        let last = self.chain.position(length_m);
+        if self.stream.below(2) == 0 {
+            let cut_m = self.stream.range(0.0, 2.0 * region.tolerance().xy_m);
+            let at = self.chain.position((length_m - cut_m).max(0.0));
+            let end = self.chain.pose(at);
+            let is_start = at.piece == 0 && at.driven_m == 0.0;
+            return !is_start && region.contains(end) && self.cut(at, last);
+        }
+        let radius_m = self.task.radius_m;
+        let (shortest_m, longest_m) = (SHORTEST_RADII * radius_m, SHIFT_REACH_RADII * radius_m);
+        let reach_m = log_uniform(&mut self.stream, shortest_m, longest_m);
+        let from = self.chain.position((length_m - reach_m).max(0.0));
+        let draws = [0; 3].map(|_| self.stream.unit());
+        let Some(end) = region.pose_near(self.chain.pose(last), draws) else {
+            return false;
+        };
+        if from == last {
+            return false;
+        }
+        let gears = self.gears_between(from, last);
+        self.join_to([from, last], end, &gears)
+    }
+
+    /// Leaves out what comes after a place.
+    fn cut(&mut self, at: PathPosition, last: PathPosition) -> bool {
+        let route = Route {
+            start: self.chain.pose(at),
+            curves: [Curve::default(), Curve::default()],
+            bound_m: 0.0,
+            low_m: 0.0,
+        };
+        let mut window = Window::new(self.task, self.chain, at, last);
+        window.settle(self.task);
+        window.replace(self.task, self.chain, &route)
+    }
+
+    /// Connects a place with a pose that takes that of a later one.
+    fn join_to(&mut self, [from, to]: [PathPosition; 2], end: Pose2, gears: &[JoinGears]) -> bool {
+        let curves = self.curves([from, to], end, gears);
         let window = Window::new(self.task, self.chain, from, to);
         let start = self.chain.pose(from);
         let routes = curves.into_iter().filter_map(|curve| {
@@ -86,6 +135,7 @@ impl Attempt<'_> {
                     start,
                     curves: [curve, Curve::default()],
                     bound_m: 0.0,
+                    low_m: 0.0,
                 },
             )
         });
@@ -134,6 +184,7 @@ impl Attempt<'_> {
                     start: ends[0].0,
                     curves,
                     bound_m: 0.0,
+                    low_m: 0.0,
                 },
             )
         });
@@ -188,10 +239,15 @@ impl Attempt<'_> {
             + joints.sum::<f64>()
     }
 
-    fn curves(&mut self, [from, to]: [PathPosition; 2], gears: &[JoinGears]) -> Vec<Curve> {
+    fn curves(
+        &mut self,
+        [from, to]: [PathPosition; 2],
+        end: Pose2,
+        gears: &[JoinGears],
+    ) -> Vec<Curve> {
         let gap = Gap {
             from: self.chain.pose(from),
-            to: self.chain.pose(to),
+            to: end,
             curvatures_per_m: [from, to].map(|position| self.curvature_at(position)),
         };
         let allowed = self.task.gears;
@@ -231,7 +287,9 @@ impl Attempt<'_> {
         routes.sort_by(|a, b| a.bound_m.total_cmp(&b.bound_m));
         let task = self.task;
         let n_checked = task.config.n_checked as usize;
-        let routes = routes.iter().filter(|route| !route.certainly_hits(task));
+        let routes = routes
+            .iter()
+            .filter(|route| !route.is_certainly_too_near(task));
         for route in routes.take(n_checked) {
             window.settle(task);
             if window.bounded(task, *route).is_none() {

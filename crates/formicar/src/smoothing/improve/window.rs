@@ -1,7 +1,8 @@
 //! A stretch of the path that may be replaced, and the cost of its replacement.
 
-use super::chain::{Chain, PathPosition, Piece};
+use super::chain::{Chain, PathPosition, Piece, least_m, open_m, path_m};
 use super::task::ImproveTask;
+use crate::collision::MIN_CLEARANCE_M;
 use crate::geometry::{Arc, Curve, Pose2};
 
 /// Least gain of a replacement, meters: more than rounding.
@@ -15,8 +16,13 @@ pub(super) struct Window {
     /// The remaining parts of the first and the last piece.
     head: Option<Draft>,
     tail: Option<Draft>,
-    /// Cost of the touched pieces with the joints between them.
-    old_m: f64,
+    /// Cost of the path, which a replacement must undercut.
+    path_m: f64,
+    /// Of the pieces and joints that it does not touch: cost on open ground, cost of nearness and
+    /// least clearance.
+    outside_open_m: f64,
+    outside_around_m: f64,
+    outside_least_m: f64,
 }
 
 /// A piece that is yet to be priced.
@@ -24,7 +30,9 @@ pub(super) struct Window {
 struct Draft {
     start: Pose2,
     arc: Arc,
-    known_m: Option<f64>,
+    open_m: f64,
+    around_m: Option<f64>,
+    least_m: Option<f64>,
 }
 
 /// Curves from place to place of a window, one after the other.
@@ -32,8 +40,10 @@ struct Draft {
 pub(super) struct Route {
     pub(super) start: Pose2,
     pub(super) curves: [Curve; 2],
-    /// A lower bound of what the touched pieces would cost, meters.
+    /// A lower bound of what the path would cost, meters.
     pub(super) bound_m: f64,
+    /// A clearance below which the path would not gain, meters; at least 0.
+    pub(super) low_m: f64,
 }
 
 impl Route {
@@ -51,10 +61,10 @@ impl Route {
         })
     }
 
-    /// Whether it certainly hits something.
-    pub(super) fn certainly_hits(&self, task: &ImproveTask) -> bool {
+    /// Whether it certainly hits something or is too near to gain.
+    pub(super) fn is_certainly_too_near(&self, task: &ImproveTask) -> bool {
         let mut arcs = self.placed();
-        arcs.any(|(start, arc)| task.certainly_hits(start, arc))
+        arcs.any(|(start, arc)| task.is_certainly_nearer(start, arc, self.low_m))
     }
 }
 
@@ -77,81 +87,135 @@ impl Window {
             (last, tail_from_m) = (last + 1, 0.0);
         }
         let touched = &pieces[first..=last];
-        let joints = touched.windows(2);
-        let joints = joints.map(|w| task.meter.joint_m(w[0].arc, w[1].arc));
         Self {
             first,
             last,
-            head: Draft::before(&pieces[first], head_m),
-            tail: Draft::after(&pieces[last], tail_from_m),
-            old_m: touched.iter().map(|p| p.cost_m).sum::<f64>() + joints.sum::<f64>(),
+            head: Draft::before(task, &pieces[first], head_m),
+            tail: Draft::after(task, &pieces[last], tail_from_m),
+            path_m: chain.cost_m,
+            outside_open_m: chain.open_m - open_m(task, touched),
+            outside_around_m: chain.around_m - touched.iter().map(|p| p.around_m).sum::<f64>(),
+            outside_least_m: least_m(&pieces[..first]).min(least_m(&pieces[last + 1..])),
         }
+    }
+
+    /// The cost of the path with a replacement: its cost on open ground, that of nearness and its
+    /// least clearance.
+    fn new_path_m(&self, task: &ImproveTask, open_m: f64, around_m: f64, least_m: f64) -> f64 {
+        let open_m = self.outside_open_m + open_m;
+        let around_m = self.outside_around_m + around_m;
+        path_m(task, open_m, around_m, least_m.min(self.outside_least_m))
+    }
+
+    fn gains(&self, path_m: f64) -> bool {
+        path_m < self.path_m - LEAST_GAIN_M
+    }
+
+    /// The clearance below which a replacement does not gain, given its cost without the price of
+    /// that.
+    fn low_m(&self, task: &ImproveTask, open_m: f64, around_m: f64) -> f64 {
+        let open_m = self.outside_open_m + open_m;
+        let price_m = self.path_m - open_m - self.outside_around_m - around_m;
+        task.meter.least_clearance_for_m(open_m, price_m).max(0.0)
     }
 
     /// The route with its bound; none where that is too high.
     pub(super) fn bounded(&self, task: &ImproveTask, mut route: Route) -> Option<Route> {
         let rests = [&self.head, &self.tail].map(|rest| rest.as_ref().map(|rest| rest.arc));
-        let [head, tail] = [&self.head, &self.tail].map(|rest| {
-            rest.as_ref().map_or(0.0, |rest| {
-                rest.known_m.unwrap_or(task.meter.open_ground_m(rest.arc))
-            })
-        });
-        let mut bound_m = head + tail;
+        let drafts = [&self.head, &self.tail].into_iter().flatten();
+        let around_m = drafts.clone().filter_map(|rest| rest.around_m).sum();
+        let least_m = drafts.clone().filter_map(|rest| rest.least_m);
+        let least_m = least_m.fold(f64::INFINITY, f64::min);
+        let mut open_m = drafts.map(|rest| rest.open_m).sum::<f64>();
         let mut before = rests[0];
         for arc in route.arcs() {
-            bound_m += task.meter.open_ground_m(arc);
-            bound_m += before.map_or(0.0, |before| task.meter.joint_m(before, arc));
+            open_m += task.meter.open_ground_m(arc);
+            open_m += before.map_or(0.0, |before| task.meter.joint_m(before, arc));
             before = Some(arc);
         }
         if let (Some(before), Some(tail)) = (before, rests[1]) {
-            bound_m += task.meter.joint_m(before, tail);
+            open_m += task.meter.joint_m(before, tail);
         }
-        route.bound_m = bound_m;
-        (bound_m < self.old_m - LEAST_GAIN_M).then_some(route)
+        route.bound_m = self.new_path_m(task, open_m, around_m, least_m);
+        if !self.gains(route.bound_m) {
+            return None;
+        }
+        route.low_m = self.low_m(task, open_m, around_m);
+        Some(route)
     }
 
-    /// Computes the cost of the remaining parts, once for all routes.
+    /// Computes cost and clearance of the remaining parts, once for all routes.
     pub(super) fn settle(&mut self, task: &ImproveTask) {
         for rest in [&mut self.head, &mut self.tail].into_iter().flatten() {
-            if rest.known_m.is_none() {
-                rest.known_m = Some(task.meter.arc_m(rest.start, rest.arc));
+            if rest.around_m.is_none() {
+                let around_m = task.meter.around_m(rest.start, rest.arc, f64::INFINITY);
+                rest.around_m = Some(around_m);
+            }
+            if rest.least_m.is_none() {
+                let limits_m = [0.0, f64::INFINITY];
+                let least_m = task.meter.least_clearance_m(rest.start, rest.arc, limits_m);
+                rest.least_m = Some(least_m);
             }
         }
     }
 
     /// Replaces the stretch if the route is cheaper and free; returns whether it did.
     pub(super) fn replace(&self, task: &ImproveTask, chain: &mut Chain, route: &Route) -> bool {
-        let mut drafts = self.drafts(route);
+        let mut drafts = self.drafts(task, route);
         if drafts.is_empty() || !self.price(task, &mut drafts) {
             return false;
         }
-        let is_free = route.placed().all(|(start, arc)| task.is_free(start, arc));
-        if is_free {
-            let pieces = drafts.iter().map(|draft| Piece {
-                start: draft.start,
-                arc: draft.arc,
-                cost_m: draft.known_m.unwrap_or_default(),
-                from_m: 0.0,
-            });
-            chain.pieces.splice(self.first..=self.last, pieces);
-            chain.measure(task);
+        if !self.keeps_clear(task, route, &mut drafts) {
+            return false;
         }
-        is_free
+        let pieces = drafts.iter().map(|draft| Piece {
+            start: draft.start,
+            arc: draft.arc,
+            open_m: draft.open_m,
+            around_m: draft.around_m.unwrap_or_default(),
+            least_m: draft.least_m.unwrap_or(f64::INFINITY),
+            from_m: 0.0,
+        });
+        chain.pieces.splice(self.first..=self.last, pieces);
+        chain.measure(task);
+        true
+    }
+
+    /// Whether the route is free and its least clearance leaves a gain; finds that of the drafts.
+    fn keeps_clear(&self, task: &ImproveTask, route: &Route, drafts: &mut [Draft]) -> bool {
+        if !task.meter.counts_least_clearance() {
+            return route.placed().all(|(start, arc)| task.is_free(start, arc));
+        }
+        let open_m = open_drafts_m(task, drafts);
+        let around_m = drafts.iter().filter_map(|draft| draft.around_m).sum();
+        let low_m = self.low_m(task, open_m, around_m).max(MIN_CLEARANCE_M);
+        let mut path_least_m = f64::INFINITY;
+        for draft in drafts {
+            let least_m = draft.least_m.unwrap_or_else(|| {
+                let limits_m = [low_m, f64::INFINITY];
+                task.meter
+                    .least_clearance_m(draft.start, draft.arc, limits_m)
+            });
+            if least_m <= low_m {
+                return false;
+            }
+            draft.least_m = Some(least_m);
+            path_least_m = path_least_m.min(least_m);
+        }
+        self.gains(self.new_path_m(task, open_m, around_m, path_least_m))
     }
 
     /// The pieces that replace the touched ones; pieces of one motion are merged.
-    fn drafts(&self, route: &Route) -> Vec<Draft> {
-        let inner = route.placed().map(|(start, arc)| Draft {
-            start,
-            arc,
-            known_m: None,
-        });
+    fn drafts(&self, task: &ImproveTask, route: &Route) -> Vec<Draft> {
+        let inner = route.placed();
+        let inner = inner.map(|(start, arc)| Draft::new(task, start, arc));
         let mut drafts: Vec<Draft> = Vec::with_capacity(12);
         for draft in self.head.into_iter().chain(inner).chain(self.tail) {
             match drafts.last_mut() {
                 Some(last) if last.arc.continues_in(draft.arc) => {
-                    last.arc.signed_length_m += draft.arc.signed_length_m;
-                    last.known_m = None;
+                    let length_m = last.arc.signed_length_m + draft.arc.signed_length_m;
+                    let arc = Arc::new(last.arc.curvature_per_m, length_m);
+                    *last = Draft::new(task, last.start, arc);
                 }
                 _ => drafts.push(draft),
             }
@@ -161,42 +225,79 @@ impl Window {
 
     /// Computes the cost of the drafts; returns whether it is less than before.
     fn price(&self, task: &ImproveTask, drafts: &mut [Draft]) -> bool {
-        let joints = drafts.windows(2);
-        let joints = joints.map(|w| task.meter.joint_m(w[0].arc, w[1].arc));
-        let grounds = drafts.iter();
-        let grounds = grounds.map(|d| d.known_m.unwrap_or(task.meter.open_ground_m(d.arc)));
-        let mut left_m = self.old_m - LEAST_GAIN_M - joints.sum::<f64>() - grounds.sum::<f64>();
-        for draft in drafts.iter_mut().filter(|draft| draft.known_m.is_none()) {
+        let open_m = open_drafts_m(task, drafts);
+        let around_m = drafts.iter().filter_map(|draft| draft.around_m).sum();
+        let least_m = drafts.iter().filter_map(|draft| draft.least_m);
+        let least_m = least_m.fold(f64::INFINITY, f64::min);
+        let known_m = self.new_path_m(task, open_m, around_m, least_m);
+        let mut left_m = self.path_m - LEAST_GAIN_M - known_m;
+        for draft in drafts.iter_mut().filter(|draft| draft.around_m.is_none()) {
             if left_m <= 0.0 {
                 return false;
             }
             let around_m = task.meter.around_m(draft.start, draft.arc, left_m);
-            draft.known_m = Some(task.meter.open_ground_m(draft.arc) + around_m);
+            draft.around_m = Some(around_m);
             left_m -= around_m;
         }
         left_m > 0.0
     }
 }
 
+/// The cost of drafts and the joints between them on open ground, meters.
+fn open_drafts_m(task: &ImproveTask, drafts: &[Draft]) -> f64 {
+    let joints = drafts.windows(2);
+    let joints = joints.map(|w| task.meter.joint_m(w[0].arc, w[1].arc));
+    joints.sum::<f64>() + drafts.iter().map(|draft| draft.open_m).sum::<f64>()
+}
+
 impl Draft {
-    /// The part of a piece before a place on it.
-    fn before(piece: &Piece, driven_m: f64) -> Option<Self> {
-        let whole = driven_m == piece.arc.length_m();
-        (driven_m > 0.0).then(|| Self {
+    fn new(task: &ImproveTask, start: Pose2, arc: Arc) -> Self {
+        Self {
+            start,
+            arc,
+            open_m: task.meter.open_ground_m(arc),
+            around_m: None,
+            least_m: None,
+        }
+    }
+
+    fn whole(piece: &Piece) -> Self {
+        Self {
             start: piece.start,
-            arc: piece.arc_before(driven_m),
-            known_m: whole.then_some(piece.cost_m),
-        })
+            arc: piece.arc,
+            open_m: piece.open_m,
+            around_m: Some(piece.around_m),
+            least_m: Some(piece.least_m),
+        }
+    }
+
+    /// A part of a piece: it has as much room where that has all it wants.
+    fn part(task: &ImproveTask, piece: &Piece, start: Pose2, arc: Arc) -> Self {
+        Self {
+            least_m: task
+                .meter
+                .is_enough_m(piece.least_m)
+                .then_some(piece.least_m),
+            ..Self::new(task, start, arc)
+        }
+    }
+
+    /// The part of a piece before a place on it.
+    fn before(task: &ImproveTask, piece: &Piece, driven_m: f64) -> Option<Self> {
+        if driven_m == piece.arc.length_m() {
+            return Some(Self::whole(piece));
+        }
+        let arc = piece.arc_before(driven_m);
+        (driven_m > 0.0).then(|| Self::part(task, piece, piece.start, arc))
     }
 
     /// The part of a piece after a place on it.
-    fn after(piece: &Piece, driven_m: f64) -> Option<Self> {
-        let whole = driven_m == 0.0;
+    fn after(task: &ImproveTask, piece: &Piece, driven_m: f64) -> Option<Self> {
+        if driven_m == 0.0 {
+            return Some(Self::whole(piece));
+        }
         let arc = piece.arc_after(driven_m);
-        (arc.signed_length_m != 0.0).then(|| Self {
-            start: piece.pose_at(driven_m),
-            arc,
-            known_m: whole.then_some(piece.cost_m),
-        })
+        let start = piece.pose_at(driven_m);
+        (arc.signed_length_m != 0.0).then(|| Self::part(task, piece, start, arc))
     }
 }

@@ -1,7 +1,7 @@
 //! Curves over what is missing of a path.
 
 use crate::geometry::{Arc, Curve, Pose2, dubins, reeds_shepp};
-use crate::objective::DriveCost;
+use crate::objective::VehicleCost;
 use crate::search::DriveProblem;
 use crate::vehicle::Gears;
 
@@ -35,7 +35,7 @@ pub(super) struct Bridge {
 /// costs; what of the path it replaces counts in its favor.
 pub(super) fn bridge(
     problem: &DriveProblem,
-    cost: &DriveCost,
+    cost: &VehicleCost,
     exits: &[Place],
     entries: &[Place],
 ) -> Option<Bridge> {
@@ -46,7 +46,7 @@ pub(super) fn bridge(
             curves.sort_by(|a, b| a.length_m().total_cmp(&b.length_m()));
             drafts.extend(curves.into_iter().take(N_WORDS).map(|curve| {
                 let gain_m = from.lost_m + to.lost_m;
-                let price_m = price_m(cost, &curve, problem.map().radius_m());
+                let price_m = cost.open_path_m(curve.arcs());
                 (price_m - gain_m, from, to, curve)
             }));
         }
@@ -71,11 +71,4 @@ fn words(problem: &DriveProblem, from: Pose2, to: Pose2) -> Vec<Curve> {
         Gears::Forward => dubins::candidates(from, to, radius_m),
         Gears::Both => reeds_shepp::candidates(from, to, radius_m),
     }
-}
-
-fn price_m(cost: &DriveCost, curve: &Curve, radius_m: f64) -> f64 {
-    let arcs = curve.arcs();
-    let ground_m = arcs.iter().map(|&arc| cost.open_ground_m(arc, radius_m));
-    let joints_m = arcs.windows(2).map(|w| cost.joint_m(w[0], w[1], radius_m));
-    ground_m.sum::<f64>() + joints_m.sum::<f64>()
 }

@@ -3,7 +3,7 @@
 use super::bridge::{Bridge, OFFSETS_RADII, Place, bridge};
 use super::kept::{Stretch, arcs_between, kept_stretches};
 use crate::geometry::{Arc, Pose2, angle_difference};
-use crate::objective::DriveCost;
+use crate::objective::VehicleCost;
 use crate::path::CurvePath;
 use crate::search::{DriveProblem, Driven};
 
@@ -16,7 +16,7 @@ pub(super) type Detour<'a> = &'a mut dyn FnMut(Pose2, Pose2) -> Option<Vec<Arc>>
 /// A previous path in grid coordinates, and what is left of it.
 pub(super) struct Mender<'a> {
     pub(super) problem: &'a DriveProblem<'a>,
-    pub(super) cost: &'a DriveCost,
+    pub(super) cost: VehicleCost,
     path: CurvePath,
     kept: Vec<Stretch>,
     start: Pose2,
@@ -27,7 +27,7 @@ impl<'a> Mender<'a> {
     /// which is nearest to the path. None where there is no start or nothing ahead.
     pub(super) fn new(
         problem: &'a DriveProblem<'a>,
-        cost: &'a DriveCost,
+        cost: VehicleCost,
         previous: &CurvePath,
     ) -> Option<Self> {
         let radius_m = problem.map().radius_m();
@@ -88,7 +88,7 @@ impl<'a> Mender<'a> {
     ) -> Option<(Bridge, usize)> {
         for after in next..=self.kept.len() {
             let entries = self.entries(after);
-            if let Some(bridge) = bridge(self.problem, self.cost, exits, &entries) {
+            if let Some(bridge) = bridge(self.problem, &self.cost, exits, &entries) {
                 return Some((bridge, after + 1));
             }
         }

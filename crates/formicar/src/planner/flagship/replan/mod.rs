@@ -8,8 +8,7 @@ mod mend;
 use super::config::FormicarParameters;
 use super::query::Query;
 use super::race::race;
-use crate::geometry::{Arc, Point2, Pose2};
-use crate::objective::DriveMeter;
+use crate::geometry::{Arc, Pose2};
 use crate::path::CurvePath;
 use crate::planner::{Found, Halt, Task};
 use crate::progress::{Event, Limits, Status};
@@ -33,10 +32,12 @@ pub(super) fn mend_or_find(
     limits: &mut Limits,
 ) -> Result<Found, Halt> {
     let ground = task.drive_ground(&parameters.hybrid_astar)?;
+    let cost = parameters.cost.of_vehicle(task.vehicle());
     let query = Query {
         task,
         parameters,
-        problem: &DriveProblem::new(&ground, &parameters.hybrid_astar, task.request()),
+        cost,
+        problem: &DriveProblem::new(&ground, &parameters.hybrid_astar, &cost, task.request()),
     };
     limits.tell(&Event::SearchStarted);
     let mender = query.mender(previous);
@@ -69,10 +70,12 @@ pub(super) fn mend_or_find_legs(
         anew => anew,
     };
     let ground = task.drive_ground(&parameters.hybrid_astar)?;
+    let cost = parameters.cost.of_vehicle(task.vehicle());
     let query = Query {
         task,
         parameters,
-        problem: &DriveProblem::new(&ground, &parameters.hybrid_astar, task.request()),
+        cost,
+        problem: &DriveProblem::new(&ground, &parameters.hybrid_astar, &cost, task.request()),
     };
     let mended = query.mender(previous).and_then(|mender| mender.mend(None));
     let old = mended.map(|(start, arcs)| query.task.driven(start, &arcs));
@@ -90,7 +93,7 @@ pub(super) fn mend_or_find_legs(
 impl<'a> Query<'a> {
     fn mender(&self, previous: &CurvePath) -> Option<Mender<'a>> {
         let previous = previous.map_poses(|pose| self.task.to_grid(pose));
-        Mender::new(self.problem, &self.parameters.cost, &previous)
+        Mender::new(self.problem, self.cost, &previous)
     }
 
     /// Mends a path, with searches over its gaps that take so many steps together.
@@ -116,7 +119,7 @@ impl<'a> Query<'a> {
                 other_goals: Vec::new(),
                 ..self.task.request().with_goal(frame.to_world(to))
             };
-            let problem = DriveProblem::new(ground, &config, &gap);
+            let problem = DriveProblem::new(ground, &config, &self.cost, &gap);
             let found = race(&problem, &self.rules(), limits);
             found.ok().map(|first| first.path.1)
         };
@@ -125,21 +128,7 @@ impl<'a> Query<'a> {
 
     /// Cost of a path, meters.
     fn cost_m(&self, path: &CurvePath) -> f64 {
-        let ground = self.problem.map();
-        let meter = DriveMeter::new(
-            self.task.obstacles(),
-            ground.body(),
-            &self.parameters.cost,
-            ground.radius_m(),
-        );
-        let soft = self.task.soft_costs();
-        let price = |position: Point2| soft.map_or(0.0, |costs| costs.price_at(position));
-        let meter = if soft.is_some() {
-            meter.with_soft_cost(&price)
-        } else {
-            meter
-        };
         let arcs: Vec<Arc> = path.segments().iter().map(kept::arc_of).collect();
-        meter.path_m(self.task.to_grid(path.start()), &arcs)
+        self.path_m(&self.cost, self.task.to_grid(path.start()), &arcs)
     }
 }
