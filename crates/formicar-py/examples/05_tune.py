@@ -18,6 +18,6 @@ def objective(values: dict[str, Any]) -> float:
     return cost
 
 
-space = {"weight": formicar.Real(1.0, 3.0), "reverse_penalty": formicar.Real(1.0, 4.0)}
+space = {"weight": formicar.Real(1.0, 3.0), "change_penalty": formicar.Real(0.0, 0.5)}
 found = formicar.tune(objective, space, seed=1, max_evaluations=40, n_sources=5)
 print(found.best, f"cost {found.cost:.2f} after {found.n_evaluations} evaluations")

@@ -7,12 +7,14 @@ use crate::plan::{Asked, Plan};
 use crate::values;
 use crate::vehicle::Car;
 use formicar::layers::SoftCosts;
-use formicar::map::{Cell, CellRegion, OccupancyGrid};
+use formicar::map::{Cell, CellRegion, OccupancyGrid, UNKNOWN};
 use formicar::numeric::Seed;
 use formicar::path::CurvePath;
-use formicar::planner::{PlannerConfig, PlannerName, RequestDocument, SoftCostsRecord, Timing};
+use formicar::planner::{
+    PlanError, PlannerConfig, PlannerName, RequestDocument, SoftCostsRecord, Timing,
+};
 use formicar::progress::{AntFrames, CancelToken};
-use formicar::scenario::Request;
+use formicar::scenario::{Request, ScenarioError};
 use formicar_cli::reading;
 use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyRuntimeError;
@@ -246,7 +248,8 @@ impl Planner {
         let outcome = match &query.previous {
             Some(previous) => planner.replan(&query.request, previous, query.seed, watch),
             None => planner.plan(&query.request, query.seed, watch),
-        }?;
+        };
+        let outcome = outcome.map_err(|error| refused(&error, map))?;
         let clock = query.watch.clock;
         let grid = query.closed.as_ref().unwrap_or(self.grid.get());
         let mut record = grid.record.clone();
@@ -294,6 +297,22 @@ impl Planner {
             other.planner = other.planner.with_soft_costs(costs);
         }
         Ok(Some(other))
+    }
+}
+
+/// The exception for a query that cannot be asked; where the vehicle stands on unknown ground, how
+/// to drive there.
+fn refused(error: &PlanError, map: &OccupancyGrid) -> PyErr {
+    let plain = errors::plan(error);
+    let PlanError::Scenario(ScenarioError::Occupied { cells, .. }) = error else {
+        return plain;
+    };
+    let unknown = cells.iter().filter(|&&cell| map.value(cell) == UNKNOWN);
+    match unknown.count() {
+        0 => plain,
+        n => errors::invalid_request(format!(
+            "{error}; {n} of these cells are unknown: map.with_unknown(\"free\") drives on them"
+        )),
     }
 }
 

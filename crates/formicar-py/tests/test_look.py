@@ -32,7 +32,9 @@ def test_maps_vehicles_plans_and_drives_draw_themselves(plan: Plan, colony: Plan
     for svg in drawn:
         assert ElementTree.fromstring(svg).tag.endswith("svg")
     page = plan._repr_html_()
-    assert "11.16 m" in page and "<svg" in page and plan.certificate.path_hash in page  # type: ignore[union-attr]
+    assert plan.metrics and plan.certificate
+    assert f"{plan.metrics.length_m:.2f} m" in page and "<svg" in page
+    assert plan.certificate.path_hash in page
     with pytest.raises(ValueError, match="keep_ants"):
         plan.to_svg(ants=True)
 

@@ -110,6 +110,16 @@ def test_what_cannot_be_asked_is_refused(
         planner.plan(**{"start": START, "goal": GOAL, **changes})
 
 
+def test_unknown_ground_is_called_by_its_name() -> None:
+    ground = np.zeros((40, 60), dtype=np.int8)
+    ground[:, :20] = -1
+    grid = OccupancyGrid(ground, 0.1)
+    ends = ((1.0, 2.0, 0.0), (5.0, 2.0, 0.0))
+    with pytest.raises(InvalidRequest, match=r"with_unknown\(\"free\"\)"):
+        Planner(grid).plan(*ends)
+    assert Planner(grid.with_unknown("free")).plan(*ends)
+
+
 def test_soft_costs_must_be_shares(planner: Planner) -> None:
     for bad in (2.0, -0.1, float("nan")):
         with pytest.raises(InvalidRequest, match="soft cost"):

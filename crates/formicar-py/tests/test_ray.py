@@ -144,9 +144,10 @@ def test_a_node_that_is_killed_loses_and_repeats_no_run(
     ).stdout  # fmt: skip
     assert "worse" not in compared.split("## ", 1)[1].replace("better or worse", "")
 
-    # Nothing is left to do, and what `formicar bench` has begun is gone on with.
-    again = on_ray.bench(file, store, progress=False)
-    assert (again.n_done, again.n_runs) == (0, 200)
+    # Nothing is left to do, also not in the store that `formicar bench` has filled.
+    for filled in (store, local):
+        again = on_ray.bench(file, filled, progress=False)
+        assert (again.n_done, again.n_runs) == (0, 200)
 
 
 def test_a_store_is_gone_on_with_where_it_was_stopped(

@@ -179,8 +179,8 @@ class Planner:
         --------
         >>> planner = Planner("parking-lot")
         >>> plan = planner.plan(*planner.map.requests["back-in"])
-        >>> plan
-        Plan(found, 43.90 m, clearance 0.25 m, 1 cusp)
+        >>> plan.status, plan.metrics.n_cusps
+        ('found', 1)
         """
         request = request_of(
             start,
