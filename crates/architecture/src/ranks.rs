@@ -62,6 +62,29 @@ pub const LAB: &[&str] = &[
     "stress",
 ];
 
+/// Mapping.
+pub const MAPPING: &[&str] = &[
+    "error",
+    "fnv",
+    "matrix",
+    "scan",
+    "log",
+    "sdf",
+    "matching",
+    "motion",
+    "occupancy",
+    "graph",
+    "simulate",
+    "config",
+    "evaluate",
+    "front_end",
+    "localize",
+    "loops",
+    "refine",
+    "mapper",
+    "session",
+];
+
 /// The studio.
 pub const STUDIO: &[&str] = &[
     "options",

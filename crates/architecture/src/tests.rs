@@ -1,7 +1,9 @@
 //! The checks on the crates of this workspace, and on faults planted in made-up ones.
 #![allow(clippy::unwrap_used, reason = "a test suite: its helpers may fail")]
 
-use crate::{CLI, Crate, LAB, LIBRARY, Purity, STUDIO, circles, purity_faults, rank_faults};
+use crate::{
+    CLI, Crate, LAB, LIBRARY, MAPPING, Purity, STUDIO, circles, purity_faults, rank_faults,
+};
 use std::fs;
 use std::path::Path;
 
@@ -28,6 +30,11 @@ fn modules_of_the_lab_use_only_modules_of_lower_rank() {
 }
 
 #[test]
+fn modules_of_mapping_use_only_modules_of_lower_rank() {
+    report(&rank_faults(&Crate::read("formicar-mapping"), MAPPING));
+}
+
+#[test]
 fn modules_of_the_studio_use_only_modules_of_lower_rank() {
     report(&rank_faults(&Crate::read("formicar-studio"), STUDIO));
 }
@@ -42,6 +49,7 @@ fn files_do_not_use_each_other_in_circles() {
         "formicar",
         "formicar-cli",
         "formicar-lab",
+        "formicar-mapping",
         "formicar-studio",
     ];
     let found = crates.iter().flat_map(|name| {
@@ -53,8 +61,14 @@ fn files_do_not_use_each_other_in_circles() {
 }
 
 #[test]
-fn the_library_does_not_touch_the_outside_world() {
+fn the_libraries_do_not_touch_the_outside_world() {
     report(&purity_faults(&Crate::read("formicar"), &PURITY));
+    let nowhere = Purity {
+        files: "no folder",
+        threads: "no file",
+        clock: "no file",
+    };
+    report(&purity_faults(&Crate::read("formicar-mapping"), &nowhere));
 }
 
 #[test]

@@ -290,10 +290,16 @@ mod tests {
     fn the_code_of_a_log_is_where_its_longest_ranges_crowd() {
         let mut ranges: Vec<f32> = (0..500).map(|i| 1.0 + 0.01 * i as f32).collect();
         let policy = RangePolicy::default();
-        assert_eq!(policy.resolved([scan(ranges.clone())].iter()).no_return_m, None);
+        assert_eq!(
+            policy.resolved([scan(ranges.clone())].iter()).no_return_m,
+            None
+        );
         ranges.extend([81.91; 5]);
         let found = policy.resolved([scan(ranges)].iter()).no_return_m;
-        assert!(found.is_some_and(|code| (79.0..81.91).contains(&code)), "{found:?}");
+        assert!(
+            found.is_some_and(|code| (79.0..81.91).contains(&code)),
+            "{found:?}"
+        );
     }
 
     #[test]

@@ -2,8 +2,8 @@
 //!
 //! `FLASER`, `ROBOTLASER1` and `RAWLASER1` are scans, `ODOM` is odometry; anything else is skipped.
 //!
-//! Logs written by GMapping's `gfs2log` hold corrected poses in both pose triples of a `FLASER`
-//! line. The raw odometry is in them all the same: after each scan, an `ODOM` line with time 0
+//! Logs written by `GMapping`'s `gfs2log` hold corrected poses in both pose triples of a `FLASER`
+//! line. The raw odometry is in them all the same: after each scan, an `ODOM` line
 //! repeats the corrected pose G, and the `ODOM` lines that follow are the raw increments composed
 //! onto it. With O the last of them before the next scan, the raw motion is G⁻¹ O.
 
@@ -38,8 +38,14 @@ pub fn parse_carmen(bytes: &[u8]) -> Result<Log, MappingError> {
 }
 
 enum Message {
-    Odometry { pose: Pose2, time_s: f64 },
-    Scan { scan: LaserScan, pose: Option<Pose2> },
+    Odometry {
+        pose: Pose2,
+        time_s: f64,
+    },
+    Scan {
+        scan: LaserScan,
+        pose: Option<Pose2>,
+    },
 }
 
 /// The message of a line; none where the line holds another kind.
@@ -48,8 +54,8 @@ fn message(line: &str) -> Result<Option<Message>, String> {
     match words.next() {
         Some("ODOM") => odometry(&mut words).map(Some),
         Some("FLASER") => front_laser(&mut words).map(Some),
-        Some("ROBOTLASER1") => raw_laser(&mut words, HasPose::Yes).map(Some),
-        Some("RAWLASER1") => raw_laser(&mut words, HasPose::No).map(Some),
+        Some("ROBOTLASER1") => raw_laser(&mut words, &HasPose::Yes).map(Some),
+        Some("RAWLASER1") => raw_laser(&mut words, &HasPose::No).map(Some),
         _ => Ok(None),
     }
 }
@@ -80,7 +86,11 @@ fn front_laser(words: &mut SplitAsciiWhitespace<'_>) -> Result<Message, String> 
     let scan = LaserScan {
         time_s,
         first_angle_rad: -FRAC_PI_2,
-        angle_step_rad: if n_steps < 4 { 0.1 } else { PI / n_steps as f64 },
+        angle_step_rad: if n_steps < 4 {
+            0.1
+        } else {
+            PI / n_steps as f64
+        },
         ranges_m,
     };
     Ok(Message::Scan {
@@ -97,10 +107,7 @@ enum HasPose {
 
 /// `type start fov resolution max accuracy mode n ranges m remissions`, then for `ROBOTLASER1`
 /// `laser_pose robot_pose tv rv forward side axis`, then `time host time`.
-fn raw_laser(
-    words: &mut SplitAsciiWhitespace<'_>,
-    has_pose: HasPose,
-) -> Result<Message, String> {
+fn raw_laser(words: &mut SplitAsciiWhitespace<'_>, has_pose: &HasPose) -> Result<Message, String> {
     number(words, "type")?;
     let first_angle_rad = number(words, "start angle")?;
     number(words, "field of view")?;
@@ -113,7 +120,7 @@ fn raw_laser(
     for _ in 0..n_remissions {
         number(words, "remission")?;
     }
-    let pose_of_sensor = match has_pose {
+    let pose_of_sensor = match *has_pose {
         HasPose::No => None,
         HasPose::Yes => {
             let found = pose(words)?;
@@ -148,7 +155,9 @@ fn ranges(words: &mut SplitAsciiWhitespace<'_>) -> Result<Vec<f32>, String> {
 
 /// A range; NaN and infinity are codes of a sensor here.
 fn range(words: &mut SplitAsciiWhitespace<'_>, beam: usize) -> Result<f32, String> {
-    let word = words.next().ok_or_else(|| format!("range {beam} is missing"))?;
+    let word = words
+        .next()
+        .ok_or_else(|| format!("range {beam} is missing"))?;
     let range = word.parse::<f32>();
     range.map_err(|_| format!("range {beam}: {word:?} is not a number"))
 }
@@ -201,17 +210,27 @@ fn assemble(messages: Vec<Message>) -> Log {
     log
 }
 
-/// True where nearly every scan is followed by an `ODOM` line with time 0 that repeats its pose.
+/// True where nearly every scan is followed by an `ODOM` line that repeats its pose, and half of them
+/// do not lie where the `ODOM` line before them says.
 fn is_corrected(messages: &[Message]) -> bool {
-    let repeats = |pair: &&[Message]| match pair {
-        [Message::Scan { pose: Some(a), .. }, Message::Odometry { pose: b, time_s }] => {
-            a == b && *time_s == 0.0
-        }
-        _ => false,
-    };
-    let n_scans = messages.iter().filter(|m| matches!(m, Message::Scan { .. }));
-    let (n_scans, n_repeats) = (n_scans.count(), messages.windows(2).filter(repeats).count());
-    n_scans > 1 && 10 * n_repeats >= 9 * n_scans
+    let (mut n_scans, mut n_repeats, mut n_moved) = (0, 0, 0);
+    for (i, message) in messages.iter().enumerate() {
+        let Message::Scan {
+            pose: Some(own), ..
+        } = message
+        else {
+            continue;
+        };
+        let is_at = |neighbor: Option<&Message>| match neighbor {
+            Some(Message::Odometry { pose, .. }) => Some(pose == own),
+            _ => None,
+        };
+        n_scans += 1;
+        n_repeats += usize::from(is_at(messages.get(i + 1)) == Some(true));
+        let before = i.checked_sub(1).and_then(|before| messages.get(before));
+        n_moved += usize::from(is_at(before) == Some(false));
+    }
+    n_scans > 1 && 10 * n_repeats >= 9 * n_scans && 2 * n_moved >= n_scans
 }
 
 /// A log of `gfs2log`: corrected poses as reference, the raw increments between them as odometry.
@@ -320,7 +339,13 @@ mod tests {
             odom(3.0, 0.0),
         ];
         let log = parse_carmen(text.concat().as_bytes()).unwrap();
-        let reference: Vec<f64> = log.reference.as_ref().unwrap().iter().map(|p| p.x).collect();
+        let reference: Vec<f64> = log
+            .reference
+            .as_ref()
+            .unwrap()
+            .iter()
+            .map(|p| p.x)
+            .collect();
         assert_eq!(reference, [1.0, 2.0, 3.0]);
         assert!((log.motion(1).unwrap().x - 0.9).abs() < 1e-12);
         assert!((log.motion(2).unwrap().x - 1.2).abs() < 1e-12);
@@ -328,7 +353,13 @@ mod tests {
 
     #[test]
     fn plain_logs_keep_their_odometry() {
-        let text = [odom(0.0, 0.0), flaser(0.5, 1.0), odom(1.0, 2.0), flaser(1.5, 3.0)].concat();
+        let text = [
+            odom(0.0, 0.0),
+            flaser(0.5, 1.0),
+            odom(0.5, 2.0),
+            flaser(1.5, 3.0),
+        ]
+        .concat();
         let log = parse_carmen(text.as_bytes()).unwrap();
         assert!(log.reference.is_none());
         assert_eq!(log.motion(1).unwrap().x, 1.0);
@@ -354,10 +385,7 @@ mod tests {
     #[test]
     fn bad_lines_are_named() {
         let message = |text: &str| parse_carmen(text.as_bytes()).unwrap_err().to_string();
-        assert_eq!(
-            message("# x\nFLASER 3 1 2\n"),
-            "line 2: range 2 is missing"
-        );
+        assert_eq!(message("# x\nFLASER 3 1 2\n"), "line 2: range 2 is missing");
         assert!(message("FLASER 99999999999 1").contains("99999999999 beams"));
         assert!(message("hello").contains("no laser scan"));
         assert!(message("ODOM a 0 0 0 0 0 1 h 1").contains("x: \"a\" is not a finite number"));

@@ -8,6 +8,7 @@ pub use relations::{Relation, parse_relations};
 pub use unpack::unpacked;
 
 use crate::error::MappingError;
+use crate::fnv::Fnv;
 use crate::scan::LaserScan;
 use formicar::Pose2;
 
@@ -96,6 +97,18 @@ impl Log {
         let odometry = self.odometry.as_ref()?;
         let before = odometry.get(i.checked_sub(1)?)?;
         Some(before.relative(*odometry.get(i)?).wrapped())
+    }
+
+    /// A hash of the scans (FNV-1a, 64 bits), to tell logs apart.
+    pub fn fingerprint(&self) -> u64 {
+        let mut hash = Fnv::default();
+        for scan in &self.scans {
+            hash.add(&scan.time_s.to_bits().to_le_bytes());
+            for range in &scan.ranges_m {
+                hash.add(&range.to_bits().to_le_bytes());
+            }
+        }
+        hash.value()
     }
 
     /// The log without its odometry.

@@ -62,8 +62,11 @@ mod tests {
         let text = "# a file\n1216.630413 1217.490267 0.407950 -0.016330 0 0 0 -0.069620\n\n";
         let relations = parse_relations(text).unwrap();
         assert_eq!(relations.len(), 1);
-        assert_eq!(relations[0].motion, Pose2::new(0.407_950, -0.016_330, -0.069_620));
-        assert_eq!(relations[0].from_s, 1216.630_413);
+        assert_eq!(
+            relations[0].motion,
+            Pose2::new(0.407_950, -0.016_330, -0.069_620)
+        );
+        assert_eq!(relations[0].from_s, 1_216.630_413);
     }
 
     #[test]

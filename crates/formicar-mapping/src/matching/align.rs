@@ -90,15 +90,15 @@ pub fn align(
         let Some(step) = normal.step(damping) else {
             break;
         };
-        let next = moved(pose, step);
-        let cost = problem.cost(next);
+        let moved = moved(pose, step);
+        let next = problem.normal(moved);
         let length = step.iter().map(|s| s * s).sum::<f64>().sqrt();
-        if cost < normal.cost {
-            let gain = normal.cost - cost;
-            pose = next;
-            normal = problem.normal(pose);
+        if next.cost < normal.cost {
+            let gain = normal.cost - next.cost;
+            pose = moved;
+            normal = next;
             damping = (damping * 0.3_f64).max(1e-9);
-            if length < rule.tolerance || gain < 1e-7 * cost {
+            if length < rule.tolerance || gain < 1e-6 * normal.cost {
                 break;
             }
         } else {
@@ -115,7 +115,11 @@ pub fn align(
         score: normal.score,
         seen_share: normal.seen_share,
         information: normal.hits,
-        eigen_ratio: if greatest > 0.0 { least / greatest } else { 0.0 },
+        eigen_ratio: if greatest > 0.0 {
+            least / greatest
+        } else {
+            0.0
+        },
         n_iterations,
     }
 }
@@ -209,19 +213,6 @@ impl<F: DistanceField> Problem<'_, F> {
             all,
             slope,
         }
-    }
-
-    fn cost(&self, pose: Pose2) -> f64 {
-        let (sin, cos) = pose.heading.sin_cos();
-        let unseen = self.rule.robust.loss(self.field.truncation_m());
-        let mut loss = 0.0;
-        for hit in self.hits {
-            let arm = Point2::new(cos * hit.x - sin * hit.y, sin * hit.x + cos * hit.y);
-            let sample = self.field.sample(pose.position() + arm);
-            loss += sample.map_or(unseen, |s| self.rule.robust.loss(s.distance_m));
-        }
-        let prior = self.prior.map_or(0.0, |prior| self.prior_at(prior, pose).1);
-        loss / self.rule.hit_variance_m2 + prior
     }
 
     /// Weight, cost and deviation of the prior: a Cauchy loss of the deviation.

@@ -73,15 +73,21 @@ impl ScoreGrids {
 
 /// The greatest of each square of twice the side: square at (x, y) covers x..x + 2 half.
 fn doubled(below: &[u8], n_cols: usize, half: usize) -> Vec<u8> {
-    let at = |i: usize| below.get(i).copied().unwrap_or(0);
-    let n = below.len();
-    let mut out = vec![0; n];
-    for (i, value) in out.iter_mut().enumerate() {
-        let col = i % n_cols;
-        let right = if col + half < n_cols { at(i + half) } else { 0 };
-        let up = at(i + half * n_cols);
-        let both = if col + half < n_cols { at(i + half * n_cols + half) } else { 0 };
-        *value = at(i).max(right).max(up).max(both);
+    let mut wide = below.to_vec();
+    for (row, out) in below
+        .chunks_exact(n_cols)
+        .zip(wide.chunks_exact_mut(n_cols))
+    {
+        for (value, &right) in out.iter_mut().zip(row.get(half..).unwrap_or_default()) {
+            *value = (*value).max(right);
+        }
+    }
+    let mut out = wide.clone();
+    for (value, &up) in out
+        .iter_mut()
+        .zip(wide.get(half * n_cols..).unwrap_or_default())
+    {
+        *value = (*value).max(up);
     }
     out
 }
@@ -127,23 +133,10 @@ impl BoundSearch {
             .collect();
         let full = 255.0 * hits.len() as f64;
         let reach = (self.reach_m / grids.cell_m).ceil() as i32;
-        let top = grids.levels.len() - 1;
         let mut floor = (self.min_score * full).ceil().max(1.0) as u32;
         let mut open = Vec::new();
-        for turn in 0..places.len() {
-            for dy in (-reach..=reach).step_by(1 << top) {
-                for dx in (-reach..=reach).step_by(1 << top) {
-                    let bound = grids.sum(top, &places[turn], dx, dy);
-                    if bound >= floor {
-                        open.push(Node {
-                            bound,
-                            level: top,
-                            turn,
-                            shift: (dx, dy),
-                        });
-                    }
-                }
-            }
+        for (turn, places) in places.iter().enumerate() {
+            open.extend(roots(grids, (turn, places), reach, floor));
         }
         // Depth first, best child first; the stack's top is the best root.
         open.sort_by_key(|node| node.bound);
@@ -157,7 +150,7 @@ impl BoundSearch {
                 floor = node.bound + 1;
                 continue;
             }
-            let mut children = self.children(grids, &places[node.turn], node, floor);
+            let mut children = children(grids, &places[node.turn], node, floor);
             children.retain(|child| child.shift.0 <= reach && child.shift.1 <= reach);
             open.extend(children);
         }
@@ -169,32 +162,6 @@ impl BoundSearch {
         })
     }
 
-    fn children(
-        &self,
-        grids: &ScoreGrids,
-        places: &[(i32, i32)],
-        node: Node,
-        floor: u32,
-    ) -> Vec<Node> {
-        let level = node.level - 1;
-        let half = 1 << level;
-        let mut children = Vec::with_capacity(4);
-        for (dx, dy) in [(half, half), (0, half), (half, 0), (0, 0)] {
-            let shift = (node.shift.0 + dx, node.shift.1 + dy);
-            let bound = grids.sum(level, places, shift.0, shift.1);
-            if bound >= floor {
-                children.push(Node {
-                    bound,
-                    level,
-                    shift,
-                    ..node
-                });
-            }
-        }
-        children.sort_by_key(|child| child.bound);
-        children
-    }
-
     /// The cells of the hits at a heading, at the center of the window.
     fn places(&self, grids: &ScoreGrids, hits: &[Point2], heading: f64) -> Vec<(i32, i32)> {
         let pose = Pose2::at(self.center.position(), heading);
@@ -204,10 +171,52 @@ impl BoundSearch {
             .map(|hit| {
                 let x = (pose.x + cos * hit.x - sin * hit.y) * scale;
                 let y = (pose.y + sin * hit.x + cos * hit.y) * scale;
-                (x.floor() as i32 - grids.low.0, y.floor() as i32 - grids.low.1)
+                (
+                    x.floor() as i32 - grids.low.0,
+                    y.floor() as i32 - grids.low.1,
+                )
             })
             .collect()
     }
+}
+
+/// The squares of the top level at a heading whose bound reaches the floor.
+fn roots(
+    grids: &ScoreGrids,
+    (turn, places): (usize, &[(i32, i32)]),
+    reach: i32,
+    floor: u32,
+) -> Vec<Node> {
+    let level = grids.levels.len() - 1;
+    let shifts = || (-reach..=reach).step_by(1 << level);
+    let all = shifts().flat_map(|dy| shifts().map(move |dx| (dx, dy)));
+    let nodes = all.map(|shift| Node {
+        bound: grids.sum(level, places, shift.0, shift.1),
+        level,
+        turn,
+        shift,
+    });
+    nodes.filter(|node| node.bound >= floor).collect()
+}
+
+fn children(grids: &ScoreGrids, places: &[(i32, i32)], node: Node, floor: u32) -> Vec<Node> {
+    let level = node.level - 1;
+    let half = 1 << level;
+    let mut children = Vec::with_capacity(4);
+    for (dx, dy) in [(half, half), (0, half), (half, 0), (0, 0)] {
+        let shift = (node.shift.0 + dx, node.shift.1 + dy);
+        let bound = grids.sum(level, places, shift.0, shift.1);
+        if bound >= floor {
+            children.push(Node {
+                bound,
+                level,
+                shift,
+                ..node
+            });
+        }
+    }
+    children.sort_by_key(|child| child.bound);
+    children
 }
 
 #[cfg(test)]
@@ -246,7 +255,7 @@ mod tests {
         #[test]
         fn finds_what_trying_everything_finds(x in -0.9..0.9_f64, y in -0.9..0.9_f64, turn in -0.2..0.2_f64) {
             let grids = grids();
-            let hits = room().thinned(0.3);
+            let hits = room().thinned(0.3, 20.0);
             let search = BoundSearch {
                 center: Pose2::new(1.0 + x, 2.0 + y, 0.3 + turn),
                 reach_m: 1.0,

@@ -38,6 +38,10 @@ pub struct Candidate {
 
 /// Most hits that take part.
 const MAX_HITS: usize = 90;
+/// Hits that look at the whole window first.
+const FEW_HITS: usize = 36;
+/// Headings that all hits look at then.
+const N_HEADINGS: usize = 6;
 /// Penalty for a deviation of one standard deviation from the prediction.
 const PENALTY: f64 = 0.01;
 /// Translations are tried in steps of this many cells, then one by one around the best.
@@ -55,22 +59,37 @@ pub fn search(
     information: &Sym3,
     (window, n_best): (&Window, usize),
 ) -> Vec<Candidate> {
-    let stride = hits.len().div_ceil(MAX_HITS).max(1);
-    let hits: Vec<Point2> = hits.iter().copied().step_by(stride).collect();
-    let search = Search {
+    let few = every(hits, FEW_HITS);
+    let hits = every(hits, MAX_HITS);
+    let search = |hits| Search {
         field,
-        hits: &hits,
+        hits,
         prediction,
         information,
     };
     let cells = (window.reach_m / field.resolution_m()).round() as i32;
     let n_turns = (window.turn_rad / window.turn_step_rad).round() as i32;
-    let mut found: Vec<Candidate> = Vec::new();
-    for turn in -n_turns..=n_turns {
-        let heading = prediction.heading + f64::from(turn) * window.turn_step_rad;
-        let best = search.best_at(heading, (0, 0), cells, COARSE_CELLS);
-        found.push(best);
-    }
+    let coarse = search(&few);
+    let mut first: Vec<Candidate> = (-n_turns..=n_turns)
+        .map(|turn| {
+            let heading = prediction.heading + f64::from(turn) * window.turn_step_rad;
+            coarse.best_at(heading, (0, 0), cells, COARSE_CELLS)
+        })
+        .collect();
+    first.sort_by(|a, b| b.score.total_cmp(&a.score));
+    first.truncate(N_HEADINGS.max(2 * n_best));
+    let search = search(&hits);
+    let mut found: Vec<Candidate> = first
+        .iter()
+        .map(|c| {
+            search.best_at(
+                c.pose.heading,
+                search.cells_to(c.pose),
+                COARSE_CELLS,
+                COARSE_CELLS,
+            )
+        })
+        .collect();
     // The sort is stable: the first of equal scores stays first.
     found.sort_by(|a, b| b.score.total_cmp(&a.score));
     let mut kept: Vec<Candidate> = Vec::new();
@@ -89,6 +108,12 @@ pub fn search(
     }
     kept.sort_by(|a, b| b.score.total_cmp(&a.score));
     kept
+}
+
+/// At most so many of the hits, evenly spread.
+fn every(hits: &[Point2], n: usize) -> Vec<Point2> {
+    let stride = hits.len().div_ceil(n).max(1);
+    hits.iter().copied().step_by(stride).collect()
 }
 
 struct Search<'a, F> {
@@ -141,11 +166,16 @@ impl<F: DistanceField> Search<'_, F> {
         best
     }
 
+    /// The shift from the prediction to a pose, in cells.
+    fn cells_to(&self, pose: Pose2) -> (i32, i32) {
+        let scale = 1.0 / self.field.resolution_m();
+        let shift = (pose.position() - self.prediction.position()) * scale;
+        (shift.x.round() as i32, shift.y.round() as i32)
+    }
+
     /// The best pose around a coarse one: half the step of headings, single cells.
     fn refined(&self, coarse: Candidate, window: &Window) -> Candidate {
-        let resolution = self.field.resolution_m();
-        let shift = (coarse.pose.position() - self.prediction.position()) * (1.0 / resolution);
-        let center = (shift.x.round() as i32, shift.y.round() as i32);
+        let center = self.cells_to(coarse.pose);
         let mut best = coarse;
         for half_turn in -1..=1 {
             let heading = coarse.pose.heading + 0.5 * f64::from(half_turn) * window.turn_step_rad;
@@ -171,7 +201,10 @@ pub fn supported(
 ) -> Vec<Point2> {
     let scale = 1.0 / field.resolution_m();
     let is_seen = |point: Point2| {
-        let place = ((point.x * scale).round() as i32, (point.y * scale).round() as i32);
+        let place = (
+            (point.x * scale).round() as i32,
+            (point.y * scale).round() as i32,
+        );
         !field.distance(place).is_nan()
     };
     let along = |i: usize| {
@@ -186,7 +219,9 @@ pub fn supported(
             return is_seen(prediction.transform(hits[i]));
         };
         let probes = [hits[i], hits[i] + step, hits[i] - step];
-        probes.iter().all(|&probe| is_seen(prediction.transform(probe)))
+        probes
+            .iter()
+            .all(|&probe| is_seen(prediction.transform(probe)))
     };
     let kept: Vec<Point2> = (0..hits.len())
         .filter(|&i| is_supported(i))

@@ -18,7 +18,7 @@ pub enum Robust {
         /// The scale, meters.
         scale_m: f64,
     },
-    /// Bounded: what lies far beyond the scale costs the same everywhere (Geman and McClure).
+    /// Bounded: what lies far beyond the scale costs the same everywhere (Geman and `McClure`).
     GemanMcClure {
         /// The scale, meters.
         scale_m: f64,
@@ -75,7 +75,10 @@ mod tests {
                 let h = 1e-6;
                 let slope = (loss.loss(residual + h) - loss.loss(residual - h)) / (2.0 * h);
                 let weight = loss.weight(residual);
-                assert!((slope - weight * residual).abs() < 1e-6, "{loss:?} {residual}");
+                assert!(
+                    (slope - weight * residual).abs() < 1e-6,
+                    "{loss:?} {residual}"
+                );
             }
         }
     }

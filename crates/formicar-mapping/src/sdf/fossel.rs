@@ -144,7 +144,11 @@ impl Segment {
         // (syy - sxx + sqrt((syy - sxx)^2 + 4 sxy^2)) / (2 sxy), without its special cases.
         let along = Point2::unit(0.5 * (2.0 * xy).atan2(xx - yy));
         let normal = along.perpendicular();
-        let normal = if normal.dot(sensor - center) < 0.0 { -normal } else { normal };
+        let normal = if normal.dot(sensor - center) < 0.0 {
+            -normal
+        } else {
+            normal
+        };
         let reaches = hits.iter().map(|&hit| along.dot(hit - center).abs());
         Some(Self {
             center,
@@ -186,7 +190,10 @@ mod tests {
         let mut vertex = SdfCell::default();
         take(&mut vertex, 0.1, 3.0);
         take(&mut vertex, -0.2, 2.0);
-        assert_eq!(vertex.distance_m, 0.1, "a farther ring does not turn the sign");
+        assert_eq!(
+            vertex.distance_m, 0.1,
+            "a farther ring does not turn the sign"
+        );
         take(&mut vertex, -0.2, 5.0);
         assert_eq!(vertex.distance_m, -0.2, "a nearer ring does");
     }

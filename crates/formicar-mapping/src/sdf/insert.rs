@@ -1,6 +1,6 @@
 //! Scans into the map: every vertex of a wedge takes its distance to the line between two hits.
 
-use super::map::{SdfCell, SdfMap};
+use super::map::{SdfCell, SdfMap, floor};
 use super::sweep::{SurfaceLine, Sweep};
 use formicar::{Point2, Pose2};
 use serde::{Deserialize, Serialize};
@@ -100,16 +100,21 @@ impl Wedges<'_> {
             let at = Point2::new(f64::from(from), f64::from(y)) * resolution;
             let first = normal.dot(at - line.point);
             let slope = normal.x * resolution;
+            let distance = |x: i32| first + slope * f64::from(x - from);
+            // Most vertices are free: the ends of the row tell when all of them are.
+            if distance(from).min(distance(to)) >= truncation {
+                map.cells
+                    .update_row(y, from, to, |_, cell| see_free(cell, truncation, rule));
+                return;
+            }
             map.cells.update_row(y, from, to, |x, cell| {
-                let distance = first + slope * f64::from(x - from);
+                let distance = distance(x);
+                let here = || Point2::new(f64::from(x), f64::from(y)) * resolution - sensor;
                 if distance >= truncation {
                     see_free(cell, truncation, rule);
-                } else if distance > -truncation {
-                    let here = Point2::new(f64::from(x), f64::from(y)) * resolution - sensor;
-                    if here.dot(here) <= farthest {
-                        let weight = weight_at(distance, resolution, truncation);
-                        see(cell, distance, weight, rule.max_weight);
-                    }
+                } else if distance > -truncation && here().dot(here()) <= farthest {
+                    let weight = weight_at(distance, resolution, truncation);
+                    see(cell, distance, weight, rule.max_weight);
                 }
             });
         });
@@ -187,28 +192,29 @@ impl Wedges<'_> {
         let resolution = self.map.resolution_m;
         let (low, high) = bounds(&[self.sensor, ends[0], ends[1]], resolution);
         let origin = self.sensor * (1.0 / resolution);
+        let [first, second] = rays;
+        let (first_slope, second_slope) = (first.x / first.y, second.x / second.y);
         for y in low.1..=high.1 {
             let dy = f64::from(y) - origin.y;
-            let (mut from, mut to) = (f64::from(low.0), f64::from(high.0));
+            let (mut from, mut to) = (low.0, high.0);
             // cross(first, d) >= 0, that is first.y * dx <= first.x * dy.
-            let [first, second] = rays;
             if first.y > 0.0 {
-                to = to.min((origin.x + first.x / first.y * dy).floor());
+                to = to.min(floor(origin.x + first_slope * dy));
             } else if first.y < 0.0 {
-                from = from.max((origin.x + first.x / first.y * dy).ceil());
+                from = from.max(-floor(-(origin.x + first_slope * dy)));
             } else if first.x * dy < 0.0 {
                 continue;
             }
             // cross(second, d) < 0, that is second.y * dx > second.x * dy.
             if second.y > 0.0 {
-                from = from.max((origin.x + second.x / second.y * dy).floor() + 1.0);
+                from = from.max(floor(origin.x + second_slope * dy) + 1);
             } else if second.y < 0.0 {
-                to = to.min((origin.x + second.x / second.y * dy).ceil() - 1.0);
+                to = to.min(-floor(-(origin.x + second_slope * dy)) - 1);
             } else if second.x * dy >= 0.0 {
                 continue;
             }
             if from <= to {
-                visit(self.map, y, from as i32, to as i32);
+                visit(self.map, y, from, to);
             }
         }
     }
@@ -278,7 +284,11 @@ mod tests {
         let range = |beam: usize| {
             let angle = -std::f64::consts::FRAC_PI_2 + step * beam as f64;
             let incidence = (angle - normal_rad).cos();
-            if incidence > 0.3 { (distance_m / incidence) as f32 } else { 0.0 }
+            if incidence > 0.3 {
+                (distance_m / incidence) as f32
+            } else {
+                0.0
+            }
         };
         Sweep {
             time_s: 0.0,
@@ -362,11 +372,19 @@ mod tests {
         let place = (40, 3);
         let insert = |map: &mut SdfMap| map.insert(&far, &far.lines(0.15), Pose2::default(), &rule);
         insert(&mut map);
-        assert!(map.distance(place) < 0.05, "a wall stays: {}", map.distance(place));
+        assert!(
+            map.distance(place) < 0.05,
+            "a wall stays: {}",
+            map.distance(place)
+        );
         for _ in 0..30 {
             insert(&mut map);
         }
-        assert!(map.distance(place) > 0.12, "a person leaves: {}", map.distance(place));
+        assert!(
+            map.distance(place) > 0.12,
+            "a person leaves: {}",
+            map.distance(place)
+        );
     }
 
     #[test]

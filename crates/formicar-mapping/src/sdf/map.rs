@@ -39,9 +39,9 @@ pub trait DistanceField {
     fn sample(&self, point: Point2) -> Option<Sample> {
         let scale = 1.0 / self.resolution_m();
         let (x, y) = (point.x * scale, point.y * scale);
-        let (col, row) = (x.floor(), y.floor());
-        let [a, b, c, d] = self.quad((col as i32, row as i32)).map(f64::from);
-        let (u, v) = (x - col, y - row);
+        let (col, row) = (floor(x), floor(y));
+        let [a, b, c, d] = self.quad((col, row)).map(f64::from);
+        let (u, v) = (x - f64::from(col), y - f64::from(row));
         let (low, high) = (a + (b - a) * u, c + (d - c) * u);
         let distance_m = low + (high - low) * v;
         if distance_m.is_nan() {
@@ -53,6 +53,13 @@ pub trait DistanceField {
             gradient,
         })
     }
+}
+
+/// The floor as an integer; the library function is a call on common targets.
+#[inline]
+pub(super) fn floor(v: f64) -> i32 {
+    let whole = v as i32;
+    whole - i32::from(f64::from(whole) > v)
 }
 
 /// Signed distances with weights, on vertices that are a resolution apart; vertex (0, 0) is the
@@ -79,6 +86,16 @@ impl SdfMap {
         &self.cells
     }
 
+    /// Sets the distance of a vertex, with weight 1.
+    pub fn write(&mut self, place: Place, distance_m: f64) {
+        self.cells.update(place, |cell| {
+            *cell = SdfCell {
+                distance_m: distance_m as f32,
+                weight: 1.0,
+            };
+        });
+    }
+
     /// A copy for matching alone, an eighth of the size: distances in steps of the truncation / 127,
     /// tiles in which no surface was seen left out.
     pub fn packed(&self) -> PackedSdf {
@@ -95,10 +112,7 @@ impl SdfMap {
                 let y = first.1 + row as i32;
                 let last = first.0 + super::tiles::TILE - 1;
                 packed.update_row(y, first.0, last, |x, slot| {
-                    let cell = values[(x - first.0) as usize];
-                    if cell.weight > 0.0 {
-                        *slot = (cell.distance_m * scale).round().clamp(-127.0, 127.0) as i8;
-                    }
+                    *slot = packed_byte(values[(x - first.0) as usize], scale);
                 });
             }
         }
@@ -142,6 +156,15 @@ fn seen(cell: SdfCell) -> f32 {
 
 /// A packed distance that stands for "never seen".
 const UNSEEN: i8 = i8::MIN;
+
+/// A vertex in a byte.
+fn packed_byte(cell: SdfCell, scale: f32) -> i8 {
+    if cell.weight > 0.0 {
+        (cell.distance_m * scale).round().clamp(-127.0, 127.0) as i8
+    } else {
+        UNSEEN
+    }
+}
 
 /// Signed distances in a byte each.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -58,12 +58,18 @@ impl Sweep {
             .collect()
     }
 
-    /// Hits at least `spacing_m` apart from the one kept before, for matching: walls close to the
-    /// sensor would outweigh the rest of the scan otherwise.
-    pub fn thinned(&self, spacing_m: f64) -> Vec<Point2> {
+    /// Hits within `reach_m`, at least `spacing_m` apart from the one kept before, for matching:
+    /// walls close to the sensor would outweigh the rest of the scan otherwise.
+    pub fn thinned(&self, spacing_m: f64, reach_m: f64) -> Vec<Point2> {
         let mut kept: Vec<Point2> = Vec::new();
         for point in self.points() {
-            if kept.last().is_none_or(|last| last.distance(point) >= spacing_m) {
+            if point.norm() > reach_m {
+                continue;
+            }
+            if kept
+                .last()
+                .is_none_or(|last| last.distance(point) >= spacing_m)
+            {
                 kept.push(point);
             }
         }
@@ -91,7 +97,10 @@ impl Sweep {
             .collect();
         let n_wedges = self.ranges_m.len().saturating_sub(1);
         (0..n_wedges)
-            .map(|wedge| self.is_connected(wedge).then(|| self.line(wedge, &points, reach_m)))
+            .map(|wedge| {
+                self.is_connected(wedge)
+                    .then(|| self.line(wedge, &points, reach_m))
+            })
             .collect()
     }
 
@@ -143,8 +152,13 @@ fn fitted(points: &[Point2]) -> (SurfaceLine, f64) {
     let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
     let along = Point2::unit(angle);
     let normal = along.perpendicular();
-    let across = normal.x * normal.x * xx + 2.0 * normal.x * normal.y * xy + normal.y * normal.y * yy;
-    let normal = if normal.dot(center) > 0.0 { -normal } else { normal };
+    let across =
+        normal.x * normal.x * xx + 2.0 * normal.x * normal.y * xy + normal.y * normal.y * yy;
+    let normal = if normal.dot(center) > 0.0 {
+        -normal
+    } else {
+        normal
+    };
     let line = SurfaceLine {
         point: center,
         normal,
@@ -191,8 +205,12 @@ mod tests {
 
     #[test]
     fn thinned_points_keep_their_distance() {
-        let thinned = wall().thinned(0.1);
-        assert!(thinned.windows(2).all(|pair| pair[0].distance(pair[1]) >= 0.1));
+        let thinned = wall().thinned(0.1, 20.0);
+        assert!(
+            thinned
+                .windows(2)
+                .all(|pair| pair[0].distance(pair[1]) >= 0.1)
+        );
         assert!(thinned.len() > 10 && thinned.len() < 40);
     }
 }

@@ -76,7 +76,12 @@ impl<T: Copy> Tiles<T> {
         };
         let i = offset + inner(x, y);
         let j = i + TILE as usize;
-        [self.cells[i], self.cells[i + 1], self.cells[j], self.cells[j + 1]]
+        [
+            self.cells[i],
+            self.cells[i + 1],
+            self.cells[j],
+            self.cells[j + 1],
+        ]
     }
 
     /// Applies a function to the cells of a row from column `from` to column `to`, both included.
@@ -163,7 +168,8 @@ impl<T: Copy> Tiles<T> {
         let place = (tile_y - self.corner.1) * self.size.0 + (tile_x - self.corner.0);
         let slot = self.n_tiles();
         self.directory[place as usize] = slot as u32;
-        self.cells.resize(self.cells.len() + CELLS_PER_TILE, self.blank);
+        self.cells
+            .resize(self.cells.len() + CELLS_PER_TILE, self.blank);
         Some(slot * CELLS_PER_TILE)
     }
 
