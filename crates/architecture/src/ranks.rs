@@ -44,6 +44,7 @@ pub const CLI: &[&str] = &[
     "ants",
     "summary",
     "session",
+    "lidar",
     "commands",
     "cli",
 ];
@@ -79,10 +80,12 @@ pub const MAPPING: &[&str] = &[
     "evaluate",
     "front_end",
     "localize",
+    "trajectory",
     "loops",
     "refine",
     "mapper",
     "session",
+    "report",
 ];
 
 /// The studio.

@@ -16,15 +16,18 @@ pub mod matrix;
 pub mod motion;
 pub mod occupancy;
 pub mod refine;
+pub mod report;
 pub mod scan;
 pub mod sdf;
 mod session;
 pub mod simulate;
+pub mod trajectory;
 
 pub use config::MappingConfig;
 pub use error::MappingError;
 pub use localize::{LocalizationMap, Localizer};
 pub use log::Log;
 pub use mapper::{BuiltMap, Go, LogProgress, Mapper, Progress};
+pub use report::MapReport;
 pub use scan::{LaserScan, RangePolicy};
 pub use session::SESSION_VERSION;

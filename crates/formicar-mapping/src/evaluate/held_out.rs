@@ -5,7 +5,7 @@ use crate::log::Log;
 use crate::matching::{Prior, Window, align, search};
 use crate::matrix::Sym3;
 use crate::scan::RangePolicy;
-use crate::sdf::{SdfMap, Sweep};
+use crate::sdf::{DistanceField, Sweep};
 use formicar::map::{FREE, OCCUPIED, OccupancyGrid};
 use formicar::{Point2, Pose2};
 use serde::Serialize;
@@ -37,6 +37,19 @@ pub struct HeldOut {
 }
 
 impl HeldOut {
+    /// The counts of two logs together.
+    #[must_use]
+    pub fn plus(&self, other: &Self) -> Self {
+        Self {
+            n_scans: self.n_scans + other.n_scans,
+            n_unmatched: self.n_unmatched + other.n_unmatched,
+            n_beams: self.n_beams + other.n_beams,
+            n_late: self.n_late + other.n_late,
+            n_early: self.n_early + other.n_early,
+            n_free_ends: self.n_free_ends + other.n_free_ends,
+        }
+    }
+
     /// Share of leaks: beams that pass the map's surface.
     pub fn leaks(&self) -> f64 {
         self.n_late as f64 / self.n_beams.max(1) as f64
@@ -55,11 +68,11 @@ impl HeldOut {
 
 /// A map to judge: its cells and its signed distances.
 #[derive(Clone, Copy, Debug)]
-pub struct JudgedMap<'a> {
+pub struct JudgedMap<'a, F> {
     /// Free, occupied and unknown cells.
     pub grid: &'a OccupancyGrid,
     /// Signed distances, to match the held-out scans with.
-    pub field: &'a SdfMap,
+    pub field: &'a F,
     /// The ranges that are hits.
     pub policy: &'a RangePolicy,
     /// The parameters of the map.
@@ -72,7 +85,7 @@ pub struct JudgedMap<'a> {
 /// of poses do not count as errors of the map. `counts` says of a scan and a beam whether it is
 /// judged: beams that end on a person are not.
 pub fn held_out(
-    map: &JudgedMap<'_>,
+    map: &JudgedMap<'_, impl DistanceField>,
     log: &Log,
     scans: &[(usize, Pose2)],
     counts: impl Fn(usize, usize) -> bool,
@@ -101,7 +114,7 @@ pub fn held_out(
 }
 
 /// The pose of a held-out scan in the map; none where it does not fit.
-fn matched(map: &JudgedMap<'_>, sweep: &Sweep, guess: Pose2) -> Option<Pose2> {
+fn matched(map: &JudgedMap<'_, impl DistanceField>, sweep: &Sweep, guess: Pose2) -> Option<Pose2> {
     let hits = map.config.hits(sweep);
     let information = Sym3::diagonal(0.2_f64.powi(-2), 0.2_f64.powi(-2), 0.1_f64.powi(-2));
     let window = Window::default();

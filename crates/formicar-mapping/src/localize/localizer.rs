@@ -47,7 +47,7 @@ const MAX_START_HITS: usize = 160;
 /// Lost scans in a row after which the whole map is searched.
 const LOST_LIMIT: usize = 5;
 /// Least share of hits near a mapped surface of a scan that counts as found.
-const MIN_MAPPED_SHARE: f64 = 0.35;
+const MIN_MAPPED_SHARE: f64 = 0.55;
 
 impl Localizer {
     /// A localizer in a map. Without a start pose the first scans are searched in the whole map.

@@ -81,7 +81,7 @@ impl LocalizationMap {
 }
 
 /// Signed distances around the occupied cells of a grid, in world coordinates.
-fn grid_distances(grid: &OccupancyGrid, config: &MappingConfig) -> SdfMap {
+pub fn grid_distances(grid: &OccupancyGrid, config: &MappingConfig) -> SdfMap {
     let frame = grid.frame();
     let (resolution, truncation) = (config.resolution_m, config.truncation_m());
     let reach = (truncation / frame.resolution_m()).ceil() as i64 + 1;

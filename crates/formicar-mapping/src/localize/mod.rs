@@ -4,4 +4,4 @@ mod localizer;
 mod map;
 
 pub use localizer::{Localizer, Located};
-pub use map::LocalizationMap;
+pub use map::{LocalizationMap, grid_distances};
