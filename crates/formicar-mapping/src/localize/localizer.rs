@@ -38,6 +38,8 @@ pub struct Localizer {
     recent: VecDeque<(Sweep, Pose2)>,
     reckoned: Pose2,
     n_lost: usize,
+    /// Way since the last scan that was found, meters.
+    lost_m: f64,
 }
 
 /// Scans that a global start joins.
@@ -46,6 +48,11 @@ const N_START_SCANS: usize = 4;
 const MAX_START_HITS: usize = 160;
 /// Lost scans in a row after which the whole map is searched.
 const LOST_LIMIT: usize = 5;
+/// A search in the whole map is believed within this of the reckoned pose, and this per meter lost.
+const NEAR_M: f64 = 1.5;
+const DRIFT_PER_M: f64 = 0.1;
+/// After this way without a match, anything is believed, meters.
+const FORGOTTEN_M: f64 = 60.0;
 /// Least share of hits near a mapped surface of a scan that counts as found.
 const MIN_MAPPED_SHARE: f64 = 0.55;
 
@@ -79,6 +86,7 @@ impl Localizer {
             recent: VecDeque::new(),
             reckoned: Pose2::default(),
             n_lost: 0,
+            lost_m: 0.0,
         })
     }
 
@@ -102,12 +110,15 @@ impl Localizer {
         let found = self.tracked(&sweep, motion);
         if found.quality != Quality::Lost {
             self.n_lost = 0;
+            self.lost_m = 0.0;
             return found;
         }
         self.n_lost += 1;
+        self.lost_m += motion.map_or(1.0, |motion| motion.position().norm());
         if self.n_lost >= LOST_LIMIT {
             let again = self.started(&sweep);
             if again.quality != Quality::Lost {
+                self.lost_m = 0.0;
                 self.n_lost = 0;
                 return again;
             }
@@ -163,6 +174,12 @@ impl Localizer {
         let Some((pose, score)) = self.global(&recent) else {
             return lost(now);
         };
+        // Buildings repeat themselves: another place far from the reckoned one is not believed soon.
+        let off_m = pose.position().distance(now.position());
+        let is_near = off_m <= NEAR_M + DRIFT_PER_M * self.lost_m;
+        if self.track.is_some() && !is_near && self.lost_m < FORGOTTEN_M {
+            return lost(now);
+        }
         self.track = Some(Track::at(pose));
         Located {
             pose,
@@ -183,17 +200,22 @@ impl Localizer {
                 mapped_share: 0.0,
             };
         };
+        let before = track.pose;
         let ScanMatch {
-            pose,
+            mut pose,
             mut quality,
             score,
             ..
         } = track.matched(&self.map, sweep, motion, &self.config);
-        track.go(pose);
         let covariance = track.covariance();
         let mapped_share = self.mapped_share(sweep, pose);
         if mapped_share < MIN_MAPPED_SHARE {
+            // In a room that the map does not show, any place fits a little: only odometry counts.
             quality = Quality::Lost;
+            pose = before.compose(motion.unwrap_or_default()).wrapped();
+        }
+        if let Some(track) = &mut self.track {
+            track.go(pose);
         }
         // A centimeter and a tenth of a degree for the map's own errors.
         let covariance = covariance.plus(Sym3::diagonal(1e-4, 1e-4, 3e-6), 1.0);
