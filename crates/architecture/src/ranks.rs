@@ -44,6 +44,7 @@ pub const CLI: &[&str] = &[
     "ants",
     "summary",
     "session",
+    "lidar",
     "commands",
     "reading",
     "cli",
@@ -61,6 +62,31 @@ pub const LAB: &[&str] = &[
     "tuning",
     "analysis",
     "stress",
+];
+
+/// Mapping.
+pub const MAPPING: &[&str] = &[
+    "error",
+    "fnv",
+    "matrix",
+    "scan",
+    "log",
+    "sdf",
+    "matching",
+    "motion",
+    "occupancy",
+    "graph",
+    "simulate",
+    "config",
+    "evaluate",
+    "front_end",
+    "localize",
+    "trajectory",
+    "loops",
+    "refine",
+    "mapper",
+    "session",
+    "report",
 ];
 
 /// The studio.

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test suite: its helpers may fail")]
 
 use crate::{
-    CLI, Crate, LAB, LIBRARY, PYTHON, Purity, STUDIO, circles, purity_faults, rank_faults,
+    CLI, Crate, LAB, LIBRARY, MAPPING, PYTHON, Purity, STUDIO, circles, purity_faults, rank_faults,
 };
 use std::fs;
 use std::path::Path;
@@ -30,6 +30,11 @@ fn modules_of_the_lab_use_only_modules_of_lower_rank() {
 }
 
 #[test]
+fn modules_of_mapping_use_only_modules_of_lower_rank() {
+    report(&rank_faults(&Crate::read("formicar-mapping"), MAPPING));
+}
+
+#[test]
 fn modules_of_the_studio_use_only_modules_of_lower_rank() {
     report(&rank_faults(&Crate::read("formicar-studio"), STUDIO));
 }
@@ -49,6 +54,7 @@ fn files_do_not_use_each_other_in_circles() {
         "formicar",
         "formicar-cli",
         "formicar-lab",
+        "formicar-mapping",
         "formicar-py",
         "formicar-studio",
     ];
@@ -61,8 +67,14 @@ fn files_do_not_use_each_other_in_circles() {
 }
 
 #[test]
-fn the_library_does_not_touch_the_outside_world() {
+fn the_libraries_do_not_touch_the_outside_world() {
     report(&purity_faults(&Crate::read("formicar"), &PURITY));
+    let nowhere = Purity {
+        files: "no folder",
+        threads: "no file",
+        clock: "no file",
+    };
+    report(&purity_faults(&Crate::read("formicar-mapping"), &nowhere));
 }
 
 #[test]

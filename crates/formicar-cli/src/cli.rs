@@ -1,5 +1,7 @@
 //! The command line: its commands, and the one that runs.
 
+#[cfg(feature = "mapping")]
+use crate::commands::locate;
 #[cfg(feature = "studio")]
 use crate::commands::studio;
 #[cfg(feature = "lab")]
@@ -73,6 +75,8 @@ impl Cli {
             #[cfg(feature = "lab")]
             Command::Tune(args) => tune::run(args, out),
             Command::Map(args) => map::run(args, out),
+            #[cfg(feature = "mapping")]
+            Command::Locate(args) => locate::run(args, out),
             Command::List(args) => list::run(args, out),
             Command::Schema(args) => meta::schema(args, out),
             Command::Completions { shell } => meta::completions(*shell, Self::definition(), out),
@@ -117,8 +121,11 @@ enum Command {
     /// Serve a page on this machine: watch the ants, edit the map, drive the path.
     #[cfg(feature = "studio")]
     Studio(studio::StudioArgs),
-    /// Describe, convert and generate maps; measure the passage between two points.
-    Map(map::MapArgs),
+    /// Build maps from lidar logs; describe, convert and generate maps; measure passages.
+    Map(Box<map::MapArgs>),
+    /// Find a robot in a map, scan after scan; exit code 3 if it is lost most of the time.
+    #[cfg(feature = "mapping")]
+    Locate(locate::LocateArgs),
     /// List planners, built-in vehicles and maps, or the scenarios of a file.
     List(list::ListArgs),
     /// Print the JSON schema of a document.

@@ -15,6 +15,23 @@ pub(crate) fn read_text(path: &Path) -> Result<String> {
     read().with_context(|| format!("{} cannot be read", path.display()))
 }
 
+/// The bytes of a file of at most 1 GiB.
+#[cfg(feature = "mapping")]
+pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>> {
+    const MAX_BYTES: u64 = 1 << 30;
+    let read = || -> Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        let n_bytes = File::open(path)?
+            .take(MAX_BYTES + 1)
+            .read_to_end(&mut bytes)?;
+        if n_bytes as u64 > MAX_BYTES {
+            bail!("more than {MAX_BYTES} bytes");
+        }
+        Ok(bytes)
+    };
+    read().with_context(|| format!("{} cannot be read", path.display()))
+}
+
 /// The text of a file, or of stdin where its name is `-`.
 pub(crate) fn read_document(path: &Path) -> Result<String> {
     if path == Path::new("-") {
@@ -30,7 +47,7 @@ pub(crate) fn write(path: &Path, bytes: impl AsRef<[u8]>) -> Result<()> {
 }
 
 /// Makes a folder that does not exist yet.
-#[cfg(feature = "lab")]
+#[cfg(any(feature = "lab", feature = "mapping"))]
 pub(crate) fn make_folder(path: &Path) -> Result<()> {
     std::fs::create_dir_all(path).with_context(|| format!("{} cannot be made", path.display()))
 }

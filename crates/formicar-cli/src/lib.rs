@@ -11,6 +11,8 @@ mod cli;
 mod commands;
 mod failure;
 mod files;
+#[cfg(feature = "mapping")]
+mod lidar;
 mod mode_args;
 mod optional;
 mod output;

@@ -9,7 +9,7 @@ struct Feature {
     commands: &'static [&'static str],
 }
 
-const FEATURES: [Feature; 2] = [
+const FEATURES: [Feature; 3] = [
     Feature {
         name: "lab",
         is_built: cfg!(feature = "lab"),
@@ -23,6 +23,11 @@ const FEATURES: [Feature; 2] = [
             "stress",
             "tune",
         ],
+    },
+    Feature {
+        name: "mapping",
+        is_built: cfg!(feature = "mapping"),
+        commands: &["locate", "build", "evaluate"],
     },
     Feature {
         name: "studio",

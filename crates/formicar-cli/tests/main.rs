@@ -9,6 +9,7 @@ mod check;
 mod common;
 mod console_examples;
 mod demo;
+mod lidar;
 mod map;
 mod plan;
 mod reports;

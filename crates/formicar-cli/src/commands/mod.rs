@@ -10,6 +10,8 @@ pub(crate) mod demo;
 #[cfg(feature = "lab")]
 pub(crate) mod import;
 pub(crate) mod list;
+#[cfg(feature = "mapping")]
+pub(crate) mod locate;
 #[cfg(feature = "lab")]
 pub(crate) mod machine;
 pub(crate) mod map;

@@ -17,6 +17,12 @@ pub(crate) struct MapArgs {
 /// The commands of `map`.
 #[derive(Debug, Subcommand)]
 pub(super) enum MapCommand {
+    /// Build a map from lidar logs: signed distances, closed loops, and a report.
+    #[cfg(feature = "mapping")]
+    Build(super::build::BuildArgs),
+    /// Judge a map by a lidar log: beams against cells, poses against reference or relations.
+    #[cfg(feature = "mapping")]
+    Evaluate(super::evaluate::EvaluateArgs),
     /// Print size, frame, cells, components and the point with the most clearance.
     Info(InfoArgs),
     /// Write a map in another format: .yaml, .pgm, .png, .map, .txt or .csv.
