@@ -19,16 +19,16 @@ const PROMISING_RATIO: f64 = 1.1;
 /// A best path that costs at least so many times the way along the goal field, which knows no
 /// turns, may not be the best way around: ants look for others,
 const GOOD_RATIO: f64 = 1.25;
-/// and hybrid A* has so many times its steps,
+/// and hybrid A* has so many times its steps.
 const MORE_STEPS: u64 = 4;
-/// and searches anew by the whole cost, for at most so many steps from either end.
-const FULL_COST_STEPS: u64 = 3_000;
 /// Clearances at which paths are sought that keep more than the best one,
 const N_ROOMS: i32 = 4;
-/// by so much,
+/// by so much.
 const MORE_ROOM: f64 = 1.2;
-/// for at most so many steps from either end.
-const ROOM_STEPS: u64 = 5_000;
+/// A second search has so many steps from either end,
+const SECOND_STEPS: u64 = 5_000;
+/// or those of the first path divided by this, whichever is more.
+const SECOND_SHARE: u64 = 4;
 
 /// Paths that are announced to the observer while they improve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -106,36 +106,45 @@ struct Best<'a> {
 
 impl Best<'_> {
     fn run(&mut self, first: FirstPath, limits: &mut Limits) -> Result<(), Status> {
+        let n_steps = SECOND_STEPS.max(limits.n_steps() / SECOND_SHARE);
         self.offer(first.path, limits)?;
         self.heed_soft_costs(limits)?;
         if first.is_mended {
             return Ok(());
         }
-        let is_direct = first.stage.is_none();
-        match first.stage {
-            Some(stage) => self.search_on(stage, limits)?,
-            None => self.doubt_a_curve(limits)?,
-        }
-        let wish_m = self.query.cost.clearance_wish_m;
-        if is_direct && self.least_clearance_m() >= 0.5 * wish_m {
-            return Ok(());
-        }
-        self.search_with_room(limits)
+        let Some(stage) = first.stage else {
+            self.doubt_a_curve(n_steps, limits)?;
+            if self.least_clearance_m() >= 0.5 * self.query.cost.clearance_wish_m {
+                return Ok(());
+            }
+            let query = self.query;
+            return self.search_with_room(query.problem, n_steps, limits);
+        };
+        let problem = stage.problem.clone();
+        self.search_on(stage, n_steps, limits)?;
+        self.search_with_room(&problem, n_steps, limits)
     }
 
     /// Searches by the whole cost where the first path, a single curve, is dear beside the cheapest
     /// curve on open ground.
-    fn doubt_a_curve(&mut self, limits: &mut Limits) -> Result<(), Status> {
+    fn doubt_a_curve(&mut self, n_steps: u64, limits: &mut Limits) -> Result<(), Status> {
         let least_m = self.query.problem.least_curve_m(&self.query.cost);
         if self.summed_m() < GOOD_RATIO * least_m {
             return Ok(());
         }
-        self.search_by_full_cost(limits).map(|_| ())
+        let query = self.query;
+        self.search_by_full_cost(query.problem, n_steps, limits)
+            .map(|_| ())
     }
 
     /// Goes on with the stage that found the first path: hybrid A* where ants were faster, a search
     /// by the whole cost and focused ants where the best path is still dear.
-    fn search_on(&mut self, stage: RaceStage, limits: &mut Limits) -> Result<(), Status> {
+    fn search_on(
+        &mut self,
+        stage: RaceStage,
+        n_steps: u64,
+        limits: &mut Limits,
+    ) -> Result<(), Status> {
         let rules = self.query.rules();
         let RaceStage {
             problem,
@@ -153,7 +162,7 @@ impl Best<'_> {
                 Err(status) => return Err(status),
             }
         }
-        if is_good(self) || self.search_by_full_cost(limits)? {
+        if is_good(self) || self.search_by_full_cost(&problem, n_steps, limits)? {
             return Ok(());
         }
         let sends_none = rules.config.n_stalled == 0 || rules.config.n_ants == 0;
@@ -191,11 +200,16 @@ impl Best<'_> {
 
     /// Offers the paths that hybrid A* finds from either end by the whole cost: the first path may
     /// be a maneuver that local search does not leave. Returns whether there were any.
-    fn search_by_full_cost(&mut self, limits: &mut Limits) -> Result<bool, Status> {
+    fn search_by_full_cost(
+        &mut self,
+        problem: &DriveProblem,
+        n_steps: u64,
+        limits: &mut Limits,
+    ) -> Result<bool, Status> {
         let mut is_found = false;
-        let whole = self.query.problem.at_full_cost();
+        let whole = problem.at_full_cost();
         for problem in [whole.swapped(), Some(whole)].into_iter().flatten() {
-            if let Some(path) = search_within(FULL_COST_STEPS, &problem, limits)? {
+            if let Some(path) = search_within(n_steps, &problem, limits)? {
                 is_found = true;
                 self.offer(path, limits)?;
             }
@@ -207,20 +221,26 @@ impl Best<'_> {
     /// the wish, or by halves less. The most that the ends allow is always tried, since a guide
     /// that keeps off obstacles may know another way around; less only if the best path keeps less
     /// still.
-    fn search_with_room(&mut self, limits: &mut Limits) -> Result<(), Status> {
+    ///
+    /// The lattice is that on which the first path was found.
+    fn search_with_room(
+        &mut self,
+        problem: &DriveProblem,
+        n_steps: u64,
+        limits: &mut Limits,
+    ) -> Result<(), Status> {
         if !self.query.cost.counts_least_clearance() {
             return Ok(());
         }
         let wish_m = self.query.cost.clearance_wish_m;
         let rooms_m = (1..=N_ROOMS).map(|n| 0.5_f64.powi(n) * wish_m);
-        let query = self.query;
-        let problems = rooms_m.filter_map(|room_m| Some((room_m, query.problem.keeping(room_m)?)));
+        let problems = rooms_m.filter_map(|room_m| Some((room_m, problem.keeping(room_m)?)));
         for (place, (room_m, problem)) in problems.enumerate() {
             if place > 0 && room_m < MORE_ROOM * self.least_clearance_m() {
                 break;
             }
             for problem in [problem.swapped(), Some(problem)].into_iter().flatten() {
-                if let Some(path) = search_within(ROOM_STEPS, &problem, limits)? {
+                if let Some(path) = search_within(n_steps, &problem, limits)? {
                     self.try_quickly(path, limits)?;
                 }
             }
