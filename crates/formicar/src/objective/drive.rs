@@ -12,7 +12,8 @@ parameters! {
     /// clearance, N = integral of n(c) ds, and
     ///
     /// S = integral of (g + b (R kappa)^2) ds + sum of w R |jump of kappa| + s (changes of gear),
-    /// the cost on open ground, where g is 1 forward and `reverse_factor` in reverse, b is `bend_weight`, c the
+    /// the cost on open ground, where g is 1 forward and `reverse_factor` in reverse
+    /// (`long_reverse_factor` beyond the first `long_reverse_radii` of the path in reverse), b is `bend_weight`, c the
     /// clearance, n(c) = `clearance_weight` (1 - c / wish)^2 below the wish of
     /// `clearance_wish_widths` and 0 above it, w is `curvature_change_weight` and s
     /// `gear_switch_radii`. The share is `least_clearance_share`, the radii are
@@ -24,6 +25,12 @@ parameters! {
         /// Factor on the length driven in reverse.
         #[range(1.0..=100.0)]
         pub reverse_factor: f64 = 1.25,
+        /// The same factor beyond the first `long_reverse_radii` that a path drives in reverse.
+        #[range(1.0..=100.0)]
+        pub long_reverse_factor: f64 = 3.0,
+        /// Length in reverse from which `long_reverse_factor` holds, turning radii.
+        #[range(0.0..=1000.0)]
+        pub long_reverse_radii: f64 = 4.0,
         /// Cost of a change of gear, turning radii.
         #[range(0.0..=1000.0)]
         pub gear_switch_radii: f64 = 2.5,
@@ -64,6 +71,8 @@ impl DriveCost {
     pub fn length_alone() -> Self {
         Self {
             reverse_factor: 1.0,
+            long_reverse_factor: 1.0,
+            long_reverse_radii: 0.0,
             gear_switch_radii: 0.0,
             curvature_change_weight: 0.0,
             bend_weight: 0.0,
@@ -95,6 +104,8 @@ impl DriveCost {
         VehicleCost {
             radius_m,
             reverse_factor: self.reverse_factor,
+            long_reverse_factor: self.long_reverse_factor,
+            long_reverse_from_m: self.long_reverse_radii * radius_m,
             gear_switch_m: self.gear_switch_radii * radius_m,
             curvature_change_weight: self.curvature_change_weight,
             bend_weight: self.bend_weight,

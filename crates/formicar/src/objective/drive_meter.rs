@@ -128,6 +128,11 @@ impl<'a> DriveMeter<'a> {
         merged
     }
 
+    /// What a length driven in reverse adds to the cost of a path.
+    pub fn long_reverse_m(&self, reversed_m: f64) -> f64 {
+        self.cost.long_reverse_m(reversed_m)
+    }
+
     /// Cost of the joint from an arc to the next.
     pub fn joint_m(&self, before: Arc, after: Arc) -> f64 {
         self.cost.joint_m(before, after)

@@ -10,6 +10,10 @@ pub struct VehicleCost {
     pub radius_m: f64,
     /// Factor on the length driven in reverse.
     pub reverse_factor: f64,
+    /// The same factor beyond the first stretch in reverse.
+    pub long_reverse_factor: f64,
+    /// Length of that stretch, meters.
+    pub long_reverse_from_m: f64,
     /// Cost of a change of gear, meters.
     pub gear_switch_m: f64,
     /// Cost of a jump of curvature from straight to the tightest turn, in turning radii.
@@ -80,7 +84,19 @@ impl VehicleCost {
     pub fn open_path_m(&self, arcs: &[Arc]) -> f64 {
         let ground = arcs.iter().map(|&arc| self.open_ground_m(arc));
         let joints = arcs.windows(2).map(|w| self.joint_m(w[0], w[1]));
-        ground.sum::<f64>() + joints.sum::<f64>()
+        let reversed_m = arcs.iter().map(|&arc| Self::reversed_m(arc)).sum();
+        ground.sum::<f64>() + joints.sum::<f64>() + self.long_reverse_m(reversed_m)
+    }
+
+    /// The length of an arc where it is driven in reverse, otherwise 0.
+    pub fn reversed_m(arc: Arc) -> f64 {
+        (-arc.signed_length_m).max(0.0)
+    }
+
+    /// What a length driven in reverse adds to the cost of a path beyond the factor on each meter.
+    pub fn long_reverse_m(&self, reversed_m: f64) -> f64 {
+        let more = (self.long_reverse_factor - self.reverse_factor).max(0.0);
+        more * (reversed_m - self.long_reverse_from_m).max(0.0)
     }
 
     /// The cost of going over from an arc to the next.
@@ -213,6 +229,20 @@ mod tests {
         assert_eq!(price_m(0.0), price_m(0.4 / 64.0));
         assert!((cost.least_clearance_for_m(10.0, price_m(0.07)) - 0.07).abs() < 1e-12);
         assert!(cost.least_clearance_for_m(10.0, price_m(0.0)) < 0.0);
+    }
+
+    #[test]
+    fn a_long_way_in_reverse_costs_more_than_a_short_one() {
+        let cost = VehicleCost {
+            reverse_factor: 1.25,
+            long_reverse_factor: 3.0,
+            long_reverse_from_m: 8.0,
+            ..DriveCost::length_alone().in_meters(2.0, 1.0)
+        };
+        let back = |length_m: f64| cost.open_path_m(&[Arc::new(0.0, -length_m)]);
+        assert_eq!(back(8.0), 10.0);
+        assert_eq!(back(10.0), 10.0 + 6.0);
+        assert_eq!(cost.open_path_m(&[Arc::new(0.0, 10.0)]), 10.0);
     }
 
     #[test]

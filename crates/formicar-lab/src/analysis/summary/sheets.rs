@@ -349,7 +349,7 @@ mod tests {
             .lines()
             .find(|l| l.starts_with("| t | `hybrid_astar.weight` | 3.0 |"));
         assert!(row.unwrap().ends_with("| tuned |"), "{text}");
-        let sums = " 15 parameters with 16 values (15 chosen, 1 tuned).";
+        let sums = " 17 parameters with 18 values (17 chosen, 1 tuned).";
         assert!(text.contains(sums), "{text}");
     }
 

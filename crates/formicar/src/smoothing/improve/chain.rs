@@ -2,6 +2,7 @@
 
 use super::task::ImproveTask;
 use crate::geometry::{Arc, Pose2};
+use crate::objective::VehicleCost;
 
 /// A line or arc of the path.
 #[derive(Clone, Copy, Debug)]
@@ -57,6 +58,8 @@ pub(super) struct Chain {
     pub(super) length_m: f64,
     /// Cost of pieces and joints on open ground, meters.
     pub(super) open_m: f64,
+    /// Length driven in reverse, meters.
+    pub(super) reversed_m: f64,
     /// Cost of passing near obstacles, meters.
     pub(super) around_m: f64,
     /// Cost of the path, meters.
@@ -88,6 +91,7 @@ impl Chain {
             pieces: arcs.iter().map(piece_along).collect(),
             length_m: 0.0,
             open_m: 0.0,
+            reversed_m: 0.0,
             around_m: 0.0,
             cost_m: 0.0,
         };
@@ -105,7 +109,9 @@ impl Chain {
         self.length_m = from_m;
         self.open_m = open_m(task, &self.pieces);
         self.around_m = self.pieces.iter().map(|piece| piece.around_m).sum();
-        self.cost_m = path_m(task, self.open_m, self.around_m, least_m(&self.pieces));
+        self.reversed_m = reversed_m(&self.pieces);
+        let open_m = self.open_m + task.meter.long_reverse_m(self.reversed_m);
+        self.cost_m = path_m(task, open_m, self.around_m, least_m(&self.pieces));
     }
 
     pub(super) fn arcs(&self) -> Vec<Arc> {
@@ -161,6 +167,14 @@ pub(super) fn open_m(task: &ImproveTask, pieces: &[Piece]) -> f64 {
 /// The cost of a path from that on open ground, that of nearness, and the least clearance.
 pub(super) fn path_m(task: &ImproveTask, open_m: f64, around_m: f64, least_m: f64) -> f64 {
     open_m + around_m + task.meter.least_clearance_price_m(open_m, least_m)
+}
+
+/// The length of pieces driven in reverse, meters.
+pub(super) fn reversed_m(pieces: &[Piece]) -> f64 {
+    let lengths = pieces
+        .iter()
+        .map(|piece| VehicleCost::reversed_m(piece.arc));
+    lengths.sum()
 }
 
 /// The least clearance of pieces, meters; at most the wish.

@@ -1,9 +1,10 @@
 //! A stretch of the path that may be replaced, and the cost of its replacement.
 
-use super::chain::{Chain, PathPosition, Piece, least_m, open_m, path_m};
+use super::chain::{Chain, PathPosition, Piece, least_m, open_m, path_m, reversed_m};
 use super::task::ImproveTask;
 use crate::collision::MIN_CLEARANCE_M;
 use crate::geometry::{Arc, Curve, Pose2};
+use crate::objective::VehicleCost;
 
 /// Least gain of a replacement, meters: more than rounding.
 const LEAST_GAIN_M: f64 = 1e-6;
@@ -18,11 +19,17 @@ pub(super) struct Window {
     tail: Option<Draft>,
     /// Cost of the path, which a replacement must undercut.
     path_m: f64,
-    /// Of the pieces and joints that it does not touch: cost on open ground, cost of nearness and
-    /// least clearance.
-    outside_open_m: f64,
-    outside_around_m: f64,
+    /// Of the pieces and joints that it does not touch.
+    outside: Sums,
     outside_least_m: f64,
+}
+
+/// Sums over pieces of a path: cost on open ground, length driven in reverse, cost of nearness.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sums {
+    open_m: f64,
+    reversed_m: f64,
+    around_m: f64,
 }
 
 /// A piece that is yet to be priced.
@@ -93,18 +100,20 @@ impl Window {
             head: Draft::before(task, &pieces[first], head_m),
             tail: Draft::after(task, &pieces[last], tail_from_m),
             path_m: chain.cost_m,
-            outside_open_m: chain.open_m - open_m(task, touched),
-            outside_around_m: chain.around_m - touched.iter().map(|p| p.around_m).sum::<f64>(),
+            outside: Sums {
+                open_m: chain.open_m - open_m(task, touched),
+                reversed_m: chain.reversed_m - reversed_m(touched),
+                around_m: chain.around_m - touched.iter().map(|p| p.around_m).sum::<f64>(),
+            },
             outside_least_m: least_m(&pieces[..first]).min(least_m(&pieces[last + 1..])),
         }
     }
 
-    /// The cost of the path with a replacement: its cost on open ground, that of nearness and its
-    /// least clearance.
-    fn new_path_m(&self, task: &ImproveTask, open_m: f64, around_m: f64, least_m: f64) -> f64 {
-        let open_m = self.outside_open_m + open_m;
-        let around_m = self.outside_around_m + around_m;
-        path_m(task, open_m, around_m, least_m.min(self.outside_least_m))
+    /// The cost of the path with a replacement, given its sums and its least clearance.
+    fn new_path_m(&self, task: &ImproveTask, inside: Sums, least_m: f64) -> f64 {
+        let whole = self.outside.plus(inside);
+        let least_m = least_m.min(self.outside_least_m);
+        path_m(task, whole.ground_m(task), whole.around_m, least_m)
     }
 
     fn gains(&self, path_m: f64) -> bool {
@@ -113,34 +122,40 @@ impl Window {
 
     /// The clearance below which a replacement does not gain, given its cost without the price of
     /// that.
-    fn low_m(&self, task: &ImproveTask, open_m: f64, around_m: f64) -> f64 {
-        let open_m = self.outside_open_m + open_m;
-        let price_m = self.path_m - open_m - self.outside_around_m - around_m;
-        task.meter.least_clearance_for_m(open_m, price_m).max(0.0)
+    fn low_m(&self, task: &ImproveTask, inside: Sums) -> f64 {
+        let whole = self.outside.plus(inside);
+        let ground_m = whole.ground_m(task);
+        let price_m = self.path_m - ground_m - whole.around_m;
+        task.meter.least_clearance_for_m(ground_m, price_m).max(0.0)
     }
 
     /// The route with its bound; none where that is too high.
     pub(super) fn bounded(&self, task: &ImproveTask, mut route: Route) -> Option<Route> {
         let rests = [&self.head, &self.tail].map(|rest| rest.as_ref().map(|rest| rest.arc));
         let drafts = [&self.head, &self.tail].into_iter().flatten();
-        let around_m = drafts.clone().filter_map(|rest| rest.around_m).sum();
         let least_m = drafts.clone().filter_map(|rest| rest.least_m);
         let least_m = least_m.fold(f64::INFINITY, f64::min);
-        let mut open_m = drafts.map(|rest| rest.open_m).sum::<f64>();
+        let mut sums = Sums::default();
+        for rest in drafts {
+            sums.open_m += rest.open_m;
+            sums.reversed_m += VehicleCost::reversed_m(rest.arc);
+            sums.around_m += rest.around_m.unwrap_or(0.0);
+        }
         let mut before = rests[0];
         for arc in route.arcs() {
-            open_m += task.meter.open_ground_m(arc);
-            open_m += before.map_or(0.0, |before| task.meter.joint_m(before, arc));
+            sums.open_m += task.meter.open_ground_m(arc);
+            sums.open_m += before.map_or(0.0, |before| task.meter.joint_m(before, arc));
+            sums.reversed_m += VehicleCost::reversed_m(arc);
             before = Some(arc);
         }
         if let (Some(before), Some(tail)) = (before, rests[1]) {
-            open_m += task.meter.joint_m(before, tail);
+            sums.open_m += task.meter.joint_m(before, tail);
         }
-        route.bound_m = self.new_path_m(task, open_m, around_m, least_m);
+        route.bound_m = self.new_path_m(task, sums, least_m);
         if !self.gains(route.bound_m) {
             return None;
         }
-        route.low_m = self.low_m(task, open_m, around_m);
+        route.low_m = self.low_m(task, sums);
         Some(route)
     }
 
@@ -186,9 +201,8 @@ impl Window {
         if !task.meter.counts_least_clearance() {
             return route.placed().all(|(start, arc)| task.is_free(start, arc));
         }
-        let open_m = open_drafts_m(task, drafts);
-        let around_m = drafts.iter().filter_map(|draft| draft.around_m).sum();
-        let low_m = self.low_m(task, open_m, around_m).max(MIN_CLEARANCE_M);
+        let sums = Sums::of_drafts(task, drafts);
+        let low_m = self.low_m(task, sums).max(MIN_CLEARANCE_M);
         let mut path_least_m = f64::INFINITY;
         for draft in drafts {
             let least_m = draft.least_m.unwrap_or_else(|| {
@@ -202,7 +216,7 @@ impl Window {
             draft.least_m = Some(least_m);
             path_least_m = path_least_m.min(least_m);
         }
-        self.gains(self.new_path_m(task, open_m, around_m, path_least_m))
+        self.gains(self.new_path_m(task, sums, path_least_m))
     }
 
     /// The pieces that replace the touched ones; pieces of one motion are merged.
@@ -225,11 +239,10 @@ impl Window {
 
     /// Computes the cost of the drafts; returns whether it is less than before.
     fn price(&self, task: &ImproveTask, drafts: &mut [Draft]) -> bool {
-        let open_m = open_drafts_m(task, drafts);
-        let around_m = drafts.iter().filter_map(|draft| draft.around_m).sum();
+        let sums = Sums::of_drafts(task, drafts);
         let least_m = drafts.iter().filter_map(|draft| draft.least_m);
         let least_m = least_m.fold(f64::INFINITY, f64::min);
-        let known_m = self.new_path_m(task, open_m, around_m, least_m);
+        let known_m = self.new_path_m(task, sums, least_m);
         let mut left_m = self.path_m - LEAST_GAIN_M - known_m;
         for draft in drafts.iter_mut().filter(|draft| draft.around_m.is_none()) {
             if left_m <= 0.0 {
@@ -243,11 +256,35 @@ impl Window {
     }
 }
 
-/// The cost of drafts and the joints between them on open ground, meters.
-fn open_drafts_m(task: &ImproveTask, drafts: &[Draft]) -> f64 {
-    let joints = drafts.windows(2);
-    let joints = joints.map(|w| task.meter.joint_m(w[0].arc, w[1].arc));
-    joints.sum::<f64>() + drafts.iter().map(|draft| draft.open_m).sum::<f64>()
+impl Sums {
+    /// Of drafts and the joints between them; nearness that is not known yet counts as none.
+    fn of_drafts(task: &ImproveTask, drafts: &[Draft]) -> Self {
+        let joints = drafts.windows(2);
+        let joints = joints.map(|w| task.meter.joint_m(w[0].arc, w[1].arc));
+        let mut sums = Self {
+            open_m: joints.sum(),
+            ..Self::default()
+        };
+        for draft in drafts {
+            sums.open_m += draft.open_m;
+            sums.reversed_m += VehicleCost::reversed_m(draft.arc);
+            sums.around_m += draft.around_m.unwrap_or(0.0);
+        }
+        sums
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self {
+            open_m: self.open_m + other.open_m,
+            reversed_m: self.reversed_m + other.reversed_m,
+            around_m: self.around_m + other.around_m,
+        }
+    }
+
+    /// The cost on open ground, what reverse adds to it included.
+    fn ground_m(&self, task: &ImproveTask) -> f64 {
+        self.open_m + task.meter.long_reverse_m(self.reversed_m)
+    }
 }
 
 impl Draft {
