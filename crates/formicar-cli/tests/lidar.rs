@@ -110,9 +110,9 @@ fn bad_logs_and_names_are_refused_before_anything_is_written() {
     build("missing.log", "a.yaml").assert_refused(&["missing.log"]);
     build("empty.log", "a.jpg").assert_refused(&["a.jpg", ".yaml"]);
     room.write("x.db3", "SQLite");
-    build("x.db3", "a.yaml").assert_refused(&["ros2 bag convert"]);
+    build("x.db3", "a.yaml").assert_refused(&["x.db3", "FLASER"]);
     room.write("x.bag", "#ROSBAG");
-    build("x.bag", "a.yaml").assert_refused(&["rosbags-convert"]);
+    build("x.bag", "a.yaml").assert_refused(&["x.bag", "FLASER"]);
     let jump = format!(
         "{}{}",
         log(),

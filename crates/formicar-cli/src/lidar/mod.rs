@@ -18,20 +18,14 @@ use std::path::Path;
 /// Reads a log by its name and contents; its warnings go to stderr.
 pub(crate) fn read_log(path: &Path) -> Result<Log> {
     let extension = path.extension().and_then(|e| e.to_str());
-    match extension.unwrap_or_default().to_ascii_lowercase().as_str() {
-        "db3" => bail!(
-            "{}: rosbag2 in SQLite is not read; hint: ros2 bag convert -i {} -o out.yaml, with \
-             storage_id: mcap in out.yaml",
-            path.display(),
+    let extension = extension.unwrap_or_default().to_ascii_lowercase();
+    if ["mcap", "db3", "bag"].contains(&extension.as_str()) {
+        bail!(
+            "{}: bags of ROS are not read; hint: write each scan as a line of CARMEN: FLASER N \
+             range1 ... rangeN x y heading odom_x odom_y odom_heading time host time, with ranges \
+             over 180 degrees",
             path.display()
-        ),
-        "bag" => bail!(
-            "{}: ROS 1 bags are not read; hint: pip install rosbags, then rosbags-convert --src {} \
-             --dst converted --dst-storage mcap",
-            path.display(),
-            path.display()
-        ),
-        _ => {}
+        );
     }
     let bytes = files::read_bytes(path)?;
     let log = parse_carmen(&bytes).with_context(|| path.display().to_string())?;
