@@ -213,6 +213,17 @@ fn a_margin_makes_no_path_better() {
     }
 }
 
+/// Requests at fault still: the searches stay in the first way around or in the first shunt, or the
+/// detour costs more than the clearance.
+const KNOWN: [&str; 6] = [
+    "lei-map2/across",
+    "perpendicular-parking/nose-in",
+    "hood_800x500-01",
+    "nav2_warehouse-00",
+    "nav2_warehouse-08",
+    "nav2_warehouse-09",
+];
+
 /// All car requests of the built-in maps and of the scenarios of others, in the slow tier.
 #[test]
 fn a_margin_makes_no_path_better_anywhere() {
@@ -229,7 +240,7 @@ fn a_margin_makes_no_path_better_anywhere() {
     let found = all
         .iter()
         .flat_map(|asked| faults(asked, &[0.05, 0.1, 0.2]));
-    let found: Vec<String> = found.collect();
-    // Places that take shunting are searched to the first path that fits.
-    assert!(found.len() <= 6, "{found:#?}");
+    let is_new = |fault: &String| !KNOWN.iter().any(|name| fault.starts_with(name));
+    let found: Vec<String> = found.filter(is_new).collect();
+    assert_eq!(found, Vec::<String>::new());
 }
