@@ -26,6 +26,7 @@ pub(super) struct Window {
 
 /// Sums over pieces of a path: cost on open ground, length driven in reverse, cost of nearness.
 #[derive(Clone, Copy, Debug, Default)]
+#[allow(clippy::struct_field_names, reason = "the names end in their unit")]
 struct Sums {
     open_m: f64,
     reversed_m: f64,
