@@ -67,7 +67,6 @@ pub const LAB: &[&str] = &[
 /// Mapping.
 pub const MAPPING: &[&str] = &[
     "error",
-    "fnv",
     "matrix",
     "scan",
     "log",
@@ -115,6 +114,7 @@ pub const PYTHON: &[&str] = &[
     "errors",
     "values",
     "vehicle",
+    "cells",
     "grid",
     "scenarios",
     "pictures",

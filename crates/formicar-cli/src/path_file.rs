@@ -3,13 +3,14 @@
 use crate::files;
 use anyhow::{Context, Result, anyhow};
 use formicar::collision::ObstacleMap;
-use formicar::path::{CurvePath, Direction};
+use formicar::path::CurvePath;
 use formicar::planner::{CertificateHashes, CertificateNumbers, PoseRecord, StoredPath};
 use formicar::scenario::Request;
 use formicar::validation::{
-    CURVATURE_TOLERANCE, FOREIGN_CURVATURE_SLACK, ReadSamples, Report, judge, judge_path,
+    CURVATURE_TOLERANCE, FOREIGN_CURVATURE_SLACK, ForeignPath, ReadSamples, Report, judge,
+    judge_path,
 };
-use formicar::vehicle::{Motion, Vehicle};
+use formicar::vehicle::Vehicle;
 use serde::Serialize;
 use std::path::Path;
 
@@ -27,9 +28,7 @@ pub(crate) enum Source {
 
 /// A path and the record that its file holds about it.
 pub(crate) struct PathFile {
-    pub(crate) path: CurvePath,
-    /// The same points driven with the gears exchanged, where they may be.
-    exchanged: Option<CurvePath>,
+    path: ForeignPath,
     pub(crate) source: Source,
     /// What of the file was read, in words.
     pub(crate) reading: String,
@@ -49,8 +48,7 @@ pub(crate) fn read(path: &Path, vehicle: &Vehicle) -> Result<PathFile> {
     if is_answer(&text) {
         let stored = StoredPath::from_json(&text).with_context(name)?;
         return Ok(PathFile {
-            path: stored.path,
-            exchanged: None,
+            path: stored.path.into(),
             source: Source::Segments,
             reading: "the segments of an answer".to_owned(),
             hint: None,
@@ -66,18 +64,9 @@ pub(crate) fn read(path: &Path, vehicle: &Vehicle) -> Result<PathFile> {
         reading,
         hint,
     } = ReadSamples::from_text(&text).with_context(name)?;
-    let polyline = || Some(CurvePath::from_polyline(&samples.points));
-    let (path, exchanged) = match (vehicle.motion(), &samples.headings) {
-        (Motion::Point, _) => (polyline(), None),
-        (_, Some(_)) => (samples.path(Direction::Forward), None),
-        (_, None) => (
-            samples.path(Direction::Forward),
-            samples.path(Direction::Reverse),
-        ),
-    };
+    let path = ForeignPath::new(&samples, vehicle.motion());
     Ok(PathFile {
         path: path.ok_or_else(|| anyhow!("no poses")).with_context(name)?,
-        exchanged,
         source: match samples.headings {
             Some(_) => Source::Poses,
             None => Source::Points,
@@ -112,24 +101,15 @@ impl PathFile {
         }
     }
 
-    /// The path with the judge's findings. Points do not tell the gears: of their two ways the
-    /// second is taken where it alone is valid.
+    /// The path with the judge's findings.
     pub(crate) fn judged(
         &self,
         obstacles: &ObstacleMap,
         vehicle: &Vehicle,
     ) -> (&CurvePath, Report) {
-        let alone = |path| judge_path(obstacles, vehicle, path, self.curvature_slack());
-        let report = match &self.request {
-            Some(request) => judge(obstacles, vehicle, request, &self.path),
-            None => alone(&self.path),
-        };
-        if let (false, Some(exchanged)) = (report.valid, &self.exchanged) {
-            let other = alone(exchanged);
-            if other.valid {
-                return (exchanged, other);
-            }
-        }
-        (&self.path, report)
+        self.path.judged_by(|path| match &self.request {
+            Some(request) => judge(obstacles, vehicle, request, path),
+            None => judge_path(obstacles, vehicle, path, self.curvature_slack()),
+        })
     }
 }

@@ -4,7 +4,6 @@
 pub mod config;
 mod error;
 pub mod evaluate;
-mod fnv;
 pub mod front_end;
 pub mod graph;
 pub mod localize;

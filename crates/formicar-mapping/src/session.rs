@@ -4,11 +4,11 @@
 //! follow from scans and poses, and are built again to the bit.
 
 use crate::error::MappingError;
-use crate::fnv::Fnv;
 use crate::mapper::{Mapper, SavedMapper};
 use crate::scan::LaserScan;
 use flate2::read::GzDecoder;
 use flate2::{Compression, GzBuilder};
+use formicar::numeric::Fnv;
 use std::io::{Read, Write};
 
 /// The version that is written and read.

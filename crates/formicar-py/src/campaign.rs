@@ -227,7 +227,7 @@ impl CampaignStore {
         let loaded = load(job)?;
         let scenario = Scenario {
             map_key: format!("{:032x}", xxh3_128(&cells_of(&loaded.map))),
-            map: record_of(&loaded),
+            map: loaded.map_record.on(loaded.map.frame()),
             vehicle: VehicleRecord {
                 name: loaded.vehicle_name,
                 motion: loaded.vehicle.motion(),
@@ -242,19 +242,6 @@ impl CampaignStore {
 
 fn load(job: &Job) -> Result<LoadedScenario> {
     reading::sources().load(&job.task, job.vehicle_source())
-}
-
-/// The record of a map with its size and place.
-fn record_of(loaded: &LoadedScenario) -> MapRecord {
-    let frame = loaded.map.frame();
-    let Pose2 { x, y, heading } = frame.origin();
-    MapRecord {
-        n_cols: frame.n_cols(),
-        n_rows: frame.n_rows(),
-        resolution_m: frame.resolution_m(),
-        origin: [x, y, heading],
-        ..loaded.map_record.clone()
-    }
 }
 
 /// The cells of a map as bytes.

@@ -5,6 +5,7 @@
 
 mod bees;
 mod campaign;
+mod cells;
 mod curves;
 mod drive;
 mod errors;

@@ -11,9 +11,9 @@ use formicar::metrics::{ClearanceSummary, CompatibleMetrics, PathMetrics};
 use formicar::path::{CurvePath, Direction};
 use formicar::planner::PathDocument;
 use formicar::validation::{
-    CURVATURE_TOLERANCE, FOREIGN_CURVATURE_SLACK, Report, Samples, judge, judge_path,
+    CURVATURE_TOLERANCE, FOREIGN_CURVATURE_SLACK, ForeignPath, Report, Samples, judge, judge_path,
 };
-use formicar::vehicle::Vehicle;
+use formicar::vehicle::{Motion, Vehicle};
 use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
@@ -27,9 +27,7 @@ const MAX_POSES: f64 = 1e7;
 #[pyclass(frozen, module = "formicar._formicar")]
 #[derive(Clone)]
 pub(crate) struct Track {
-    pub(crate) path: CurvePath,
-    /// The same points driven with the gears exchanged, where they do not tell them.
-    exchanged: Option<CurvePath>,
+    path: ForeignPath,
     /// True for the segments of a plan, false for samples.
     is_exact: bool,
     request: Option<formicar::Request>,
@@ -70,8 +68,7 @@ impl Track {
     #[staticmethod]
     fn of_plan(plan: &Plan) -> PyResult<Self> {
         Ok(Self {
-            path: plan.path()?,
-            exchanged: None,
+            path: plan.path()?.into(),
             is_exact: true,
             request: plan.request(),
         })
@@ -79,12 +76,12 @@ impl Track {
 
     #[getter]
     fn length_m(&self) -> f64 {
-        self.path.length_m() + 0.0
+        self.path().length_m() + 0.0
     }
 
     /// The segments, as in answers.
     fn segments<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let segments = self.path.segments().iter();
+        let segments = self.path().segments().iter();
         let segments: Vec<_> = segments
             .map(formicar::planner::SegmentRecord::from)
             .collect();
@@ -122,7 +119,7 @@ impl Track {
                     min_m: f64::NAN,
                     mean_m: f64::NAN,
                 };
-                let exact = PathMetrics::new(&self.path, vehicle, self.path.end(), unknown);
+                let exact = PathMetrics::new(self.path(), vehicle, self.path().end(), unknown);
                 (exact, None)
             }
             Some(obstacles) => {
@@ -140,13 +137,13 @@ impl Track {
 
     /// Sampled poses as CSV, measured against a map.
     fn poses_csv(&self, grid: &Grid, car: &Car) -> String {
-        PathDocument::new(&self.path, &grid.obstacles(), &car.vehicle).poses_csv()
+        PathDocument::new(self.path(), &grid.obstacles(), &car.vehicle).poses_csv()
     }
 
     /// Poses at most so far apart: x, y, heading, s, direction and curvature of each.
     fn sample(&self, spacing_m: f64) -> Outcome<Vec<[f64; 6]>> {
-        check_spacing(spacing_m, self.path.length_m())?;
-        Ok(rows(&self.path, spacing_m))
+        check_spacing(spacing_m, self.path().length_m())?;
+        Ok(rows(self.path(), spacing_m))
     }
 }
 
@@ -181,18 +178,10 @@ pub(crate) fn rows(path: &CurvePath, spacing_m: f64) -> Vec<[f64; 6]> {
 
 impl Track {
     fn of_samples(samples: &Samples, is_point: bool) -> PyResult<Self> {
-        let polyline = || Some(CurvePath::from_polyline(&samples.points));
-        let (path, exchanged) = match (is_point, &samples.headings) {
-            (true, _) => (polyline(), None),
-            (_, Some(_)) => (samples.path(Direction::Forward), None),
-            (_, None) => (
-                samples.path(Direction::Forward),
-                samples.path(Direction::Reverse),
-            ),
-        };
+        let motion = if is_point { Motion::Point } else { Motion::Car };
+        let path = ForeignPath::new(samples, motion);
         Ok(Self {
             path: path.ok_or_else(|| errors::path("the path has no poses"))?,
-            exchanged,
             is_exact: false,
             request: None,
         })
@@ -206,21 +195,17 @@ impl Track {
         }
     }
 
-    /// The path with the judge's findings. Points do not tell the gears: of their two ways the
-    /// second is taken where it alone is valid.
+    /// The path; where points do not tell the gears, the reading that begins forward.
+    pub(crate) fn path(&self) -> &CurvePath {
+        self.path.path()
+    }
+
+    /// The path with the judge's findings.
     fn report(&self, obstacles: &ObstacleMap, vehicle: &Vehicle) -> (&CurvePath, Report) {
-        let alone = |path| judge_path(obstacles, vehicle, path, self.slack());
-        let report = match &self.request {
-            Some(request) => judge(obstacles, vehicle, request, &self.path),
-            None => alone(&self.path),
-        };
-        if let (false, Some(exchanged)) = (report.valid, &self.exchanged) {
-            let other = alone(exchanged);
-            if other.valid {
-                return (exchanged, other);
-            }
-        }
-        (&self.path, report)
+        self.path.judged_by(|path| match &self.request {
+            Some(request) => judge(obstacles, vehicle, request, path),
+            None => judge_path(obstacles, vehicle, path, self.slack()),
+        })
     }
 
     /// The path as a vehicle drives it on a map.

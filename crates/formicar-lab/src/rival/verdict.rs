@@ -1,12 +1,13 @@
 //! The judge's word on a foreign path, for a request.
 
 use formicar::collision::ObstacleMap;
-use formicar::path::{CurvePath, Direction};
+use formicar::path::CurvePath;
 use formicar::scenario::Request;
 use formicar::validation::{
-    FOREIGN_CURVATURE_SLACK, Report, Samples, Violation, ViolationKind, judge, missed_start,
+    FOREIGN_CURVATURE_SLACK, ForeignPath, Report, Samples, Violation, ViolationKind, judge,
+    missed_start,
 };
-use formicar::vehicle::{Motion, Vehicle};
+use formicar::vehicle::Vehicle;
 
 /// Tolerance at the start of a sampled path, meters and radians: its samples are rounded.
 pub const START_TOLERANCE: f64 = 1e-3;
@@ -21,33 +22,18 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// On samples; none where there are none. Points do not tell the gears: of their two ways the
-    /// second is taken where it alone is valid.
+    /// On samples; none where there are none.
     pub fn new(
         obstacles: &ObstacleMap,
         vehicle: &Vehicle,
         request: &Request,
         samples: &Samples,
     ) -> Option<Self> {
-        let on = |path: CurvePath| {
-            let report = findings(obstacles, vehicle, request, &path);
-            Self { path, report }
-        };
-        if samples.points.is_empty() {
-            return None;
-        }
-        if vehicle.motion() == Motion::Point {
-            return Some(on(CurvePath::from_polyline(&samples.points)));
-        }
-        let first = on(samples.path(Direction::Forward)?);
-        if first.report.valid || samples.headings.is_some() {
-            return Some(first);
-        }
-        let exchanged = on(samples.path(Direction::Reverse)?);
-        Some(if exchanged.report.valid {
-            exchanged
-        } else {
-            first
+        let path = ForeignPath::new(samples, vehicle.motion())?;
+        let (path, report) = path.judged_by(|path| findings(obstacles, vehicle, request, path));
+        Some(Self {
+            path: path.clone(),
+            report,
         })
     }
 

@@ -5,7 +5,7 @@ use crate::log::Log;
 use crate::matching::{Prior, Window, align, search};
 use crate::matrix::Sym3;
 use crate::scan::RangePolicy;
-use crate::sdf::{DistanceField, Sweep};
+use crate::sdf::{SignedDistances, Sweep};
 use formicar::map::{FREE, OCCUPIED, OccupancyGrid};
 use formicar::{Point2, Pose2};
 use serde::Serialize;
@@ -85,7 +85,7 @@ pub struct JudgedMap<'a, F> {
 /// of poses do not count as errors of the map. `counts` says of a scan and a beam whether it is
 /// judged: beams that end on a person are not.
 pub fn held_out(
-    map: &JudgedMap<'_, impl DistanceField>,
+    map: &JudgedMap<'_, impl SignedDistances>,
     log: &Log,
     scans: &[(usize, Pose2)],
     counts: impl Fn(usize, usize) -> bool,
@@ -114,7 +114,11 @@ pub fn held_out(
 }
 
 /// The pose of a held-out scan in the map; none where it does not fit.
-fn matched(map: &JudgedMap<'_, impl DistanceField>, sweep: &Sweep, guess: Pose2) -> Option<Pose2> {
+fn matched(
+    map: &JudgedMap<'_, impl SignedDistances>,
+    sweep: &Sweep,
+    guess: Pose2,
+) -> Option<Pose2> {
     let hits = map.config.hits(sweep);
     let information = Sym3::diagonal(0.2_f64.powi(-2), 0.2_f64.powi(-2), 0.1_f64.powi(-2));
     let window = Window::default();

@@ -7,7 +7,7 @@ use crate::matching::{
 };
 use crate::matrix::{Sym3, difference};
 use crate::motion::NoiseScale;
-use crate::sdf::{DistanceField, SdfMap, Sweep};
+use crate::sdf::{SdfMap, SignedDistances, Sweep};
 use formicar::{Point2, Pose2};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -42,7 +42,7 @@ pub struct Track {
 }
 
 /// A map to track in, and its grids for searches far and wide.
-pub(crate) trait TrackMap: DistanceField {
+pub(crate) trait TrackMap: SignedDistances {
     /// Scores for branch and bound.
     fn score_grids(&self) -> Option<Cow<'_, ScoreGrids>>;
 }

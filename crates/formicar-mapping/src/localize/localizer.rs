@@ -7,7 +7,7 @@ use crate::front_end::{Quality, ScanMatch, Track, is_degenerate};
 use crate::matching::{BoundSearch, Robust, align};
 use crate::matrix::Sym3;
 use crate::scan::{LaserScan, RangePolicy};
-use crate::sdf::{DistanceField, Sweep};
+use crate::sdf::{SignedDistances, Sweep};
 use formicar::{Point2, Pose2};
 use std::collections::{BTreeSet, VecDeque};
 use std::f64::consts::PI;

@@ -3,7 +3,7 @@
 use crate::config::MappingConfig;
 use crate::front_end::TrackMap;
 use crate::matching::ScoreGrids;
-use crate::sdf::{DistanceField, PackedSdf, Place, SdfMap};
+use crate::sdf::{PackedSdf, Place, SdfMap, SignedDistances};
 use formicar::map::{Cell, OCCUPIED, OccupancyGrid, UNKNOWN};
 use formicar::{Point2, Pose2};
 use std::borrow::Cow;
@@ -18,7 +18,7 @@ pub struct LocalizationMap {
     pub(super) far: Option<ScoreGrids>,
 }
 
-impl DistanceField for LocalizationMap {
+impl SignedDistances for LocalizationMap {
     fn resolution_m(&self) -> f64 {
         self.field.resolution_m()
     }

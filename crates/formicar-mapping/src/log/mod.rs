@@ -8,9 +8,9 @@ pub use relations::{Relation, parse_relations};
 pub use unpack::unpacked;
 
 use crate::error::MappingError;
-use crate::fnv::Fnv;
 use crate::scan::LaserScan;
 use formicar::Pose2;
+use formicar::numeric::Fnv;
 
 /// A log of one laser scanner on one robot.
 ///

@@ -2,7 +2,7 @@
 
 use super::robust::Robust;
 use crate::matrix::{Sym3, difference};
-use crate::sdf::DistanceField;
+use crate::sdf::SignedDistances;
 use formicar::{Point2, Pose2};
 use serde::{Deserialize, Serialize};
 
@@ -69,7 +69,7 @@ pub struct Alignment {
 /// never seen costs as much as one at the truncation, wherever it is: without that cost, poses that
 /// push hits into the unknown would look best.
 pub fn align(
-    field: &impl DistanceField,
+    field: &impl SignedDistances,
     hits: &[Point2],
     start: Pose2,
     prior: Option<&Prior>,
@@ -163,7 +163,7 @@ impl Normal {
     }
 }
 
-impl<F: DistanceField> Problem<'_, F> {
+impl<F: SignedDistances> Problem<'_, F> {
     fn normal(&self, pose: Pose2) -> Normal {
         let (sin, cos) = pose.heading.sin_cos();
         let truncation = self.field.truncation_m();

@@ -21,7 +21,7 @@ impl ScoreGrids {
     /// Grids of cells of about `cell_m`, a whole number of the map's own cells; none where the map
     /// shows no surface.
     pub fn new(field: &PackedSdf, cell_m: f64, n_levels: usize) -> Option<Self> {
-        use crate::sdf::DistanceField;
+        use crate::sdf::SignedDistances;
         let resolution = field.resolution_m();
         let factor = (cell_m / resolution).round().max(1.0) as i32;
         let truncation = field.truncation_m() as f32;

@@ -1,7 +1,7 @@
 //! Correlative search: the best pose in a window around a prediction, before the alignment.
 
 use crate::matrix::{Sym3, difference};
-use crate::sdf::DistanceField;
+use crate::sdf::SignedDistances;
 use formicar::{Point2, Pose2};
 use serde::{Deserialize, Serialize};
 
@@ -53,7 +53,7 @@ const COARSE_CELLS: i32 = 2;
 /// Every hit counts, also one on ground that was never seen; pass hits whose surroundings are seen
 /// ([`supported`]) where the map ends in the middle of the scan.
 pub fn search(
-    field: &impl DistanceField,
+    field: &impl SignedDistances,
     hits: &[Point2],
     prediction: Pose2,
     information: &Sym3,
@@ -123,7 +123,7 @@ struct Search<'a, F> {
     information: &'a Sym3,
 }
 
-impl<F: DistanceField> Search<'_, F> {
+impl<F: SignedDistances> Search<'_, F> {
     /// The best translation at a heading, in steps around a center, in cells.
     fn best_at(&self, heading: f64, center: (i32, i32), reach: i32, step: i32) -> Candidate {
         let resolution = self.field.resolution_m();
@@ -194,7 +194,7 @@ impl<F: DistanceField> Search<'_, F> {
 /// of them lie on known walls: a step too short. These hits stay on known ground for every
 /// candidate, so that they do not care. With fewer than a third of the hits left, all are taken.
 pub fn supported(
-    field: &impl DistanceField,
+    field: &impl SignedDistances,
     hits: &[Point2],
     prediction: Pose2,
     reach_m: f64,

@@ -66,7 +66,7 @@ pub fn occupancy_grid(
     field: &SdfMap,
     rule: &OccupancyRule,
 ) -> Result<OccupancyGrid, MappingError> {
-    use crate::sdf::DistanceField;
+    use crate::sdf::SignedDistances;
     let resolution = field.resolution_m();
     let (low, high) = bounds(counts, field);
     let margin = (rule.margin_m / resolution).ceil() as i32;

@@ -169,7 +169,7 @@ impl Segment {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sdf::DistanceField;
+    use crate::sdf::SignedDistances;
 
     #[test]
     fn a_wall_has_its_distances_and_the_nearer_ring_wins() {

@@ -272,7 +272,7 @@ fn see_free(cell: &mut SdfCell, truncation: f64, rule: &WedgeRule) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sdf::DistanceField;
+    use crate::sdf::SignedDistances;
     use proptest::prelude::*;
 
     const TRUNCATION: f64 = 0.15;

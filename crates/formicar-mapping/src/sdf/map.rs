@@ -23,7 +23,7 @@ pub struct Sample {
 }
 
 /// A field of signed distances that scans are matched against.
-pub trait DistanceField {
+pub trait SignedDistances {
     /// Side of a cell, meters.
     fn resolution_m(&self) -> f64;
     /// Distances are cut off here, meters.
@@ -125,7 +125,7 @@ impl SdfMap {
     }
 }
 
-impl DistanceField for SdfMap {
+impl SignedDistances for SdfMap {
     fn resolution_m(&self) -> f64 {
         self.resolution_m
     }
@@ -203,7 +203,7 @@ impl PackedSdf {
     }
 }
 
-impl DistanceField for PackedSdf {
+impl SignedDistances for PackedSdf {
     fn resolution_m(&self) -> f64 {
         self.resolution_m
     }

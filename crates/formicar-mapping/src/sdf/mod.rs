@@ -8,7 +8,7 @@ mod tiles;
 
 pub use fossel::FosselRule;
 pub use insert::WedgeRule;
-pub use map::{DistanceField, PackedSdf, Sample, SdfCell, SdfMap};
+pub use map::{PackedSdf, Sample, SdfCell, SdfMap, SignedDistances};
 pub use sweep::{SurfaceLine, Sweep};
 pub use tiles::{Place, TILE, Tiles};
 

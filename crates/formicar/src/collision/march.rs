@@ -22,65 +22,63 @@ impl ObstacleMap {
         drive: &Drive,
         [low_m, high_m]: [f64; 2],
     ) -> f64 {
+        let mut least_m = high_m;
+        self.march(body, drive, high_m, |part| {
+            least_m = self.drive_clearance_m(body, part, least_m);
+            (least_m > low_m).then_some(least_m)
+        });
+        least_m
+    }
+
+    /// Same result as [`Self::is_free`], faster on long drives that mostly keep some distance.
+    pub fn is_free_by_steps(&self, body: &Body, drive: &Drive) -> bool {
+        let mut is_free = true;
+        self.march(body, drive, MIN_CLEARANCE_M, |part| {
+            is_free = self.is_free(body, part);
+            is_free.then_some(MIN_CLEARANCE_M)
+        });
+        is_free
+    }
+
+    /// Hands over the stretches of a drive on which the clearance may be less than a needed one.
+    /// The look at a stretch returns the clearance needed from there on; none ends the march.
+    ///
+    /// If the estimated clearance of a pose is c, no point of the body comes nearer to anything
+    /// than n before it has moved by c - n less the estimate's error: the drive keeps n that far
+    /// on both sides.
+    fn march(
+        &self,
+        body: &Body,
+        drive: &Drive,
+        mut needed_m: f64,
+        mut look: impl FnMut(&Drive) -> Option<f64>,
+    ) {
         let length_m = drive.signed_length_m.abs();
         let half_m = body.half.x.max(body.half.y);
         let stretch_m = EXACT_HALF_LENGTHS * half_m;
         if body.inset > 0.0 || length_m <= stretch_m {
-            return self.drive_clearance_m(body, drive, high_m);
+            look(drive);
+            return;
         }
         let error_m = OVERESTIMATE_CELLS * self.frame().resolution_m();
+        // How much any point of the body moves while the rear axle moves by 1.
         let lever = 1.0 + drive.curvature_per_m.abs() * body.reach_m();
-        let (mut least_m, mut known_m, mut at_m) = (high_m, 0.0, 0.0);
-        while known_m < length_m && least_m > low_m {
+        let (mut known_m, mut at_m) = (0.0, 0.0);
+        while known_m < length_m {
             let pose = drive.pose_at(at_m / length_m);
-            let enough_m = least_m + ENOUGH_HALF_LENGTHS * half_m;
+            let enough_m = needed_m + ENOUGH_HALF_LENGTHS * half_m;
             let estimate_m = self.clearance_estimate_m(body, pose, enough_m);
-            let room_m = (estimate_m - error_m - least_m) / lever;
+            let room_m = (estimate_m - error_m - needed_m) / lever;
             if room_m > 0.25 * stretch_m && at_m - room_m < known_m {
                 known_m = at_m + room_m;
                 at_m = known_m + 0.75 * room_m;
             } else {
                 let to_m = (known_m + stretch_m).min(length_m);
-                let part = drive.between(known_m / length_m, to_m / length_m);
-                least_m = self.drive_clearance_m(body, &part, least_m);
-                (known_m, at_m) = (to_m, to_m);
-            }
-            at_m = at_m.min(length_m);
-        }
-        least_m
-    }
-
-    /// Same result as [`Self::is_free`], faster on long drives that mostly keep some distance.
-    ///
-    /// If the estimated clearance of a pose is c, no point of the body can reach anything before it
-    /// has moved by c less the estimate's error: the drive is free that far on both sides.
-    pub fn is_free_by_steps(&self, body: &Body, drive: &Drive) -> bool {
-        let length_m = drive.signed_length_m.abs();
-        let half_m = body.half.x.max(body.half.y);
-        let least_m = EXACT_HALF_LENGTHS * half_m;
-        if body.inset > 0.0 || length_m <= least_m {
-            return self.is_free(body, drive);
-        }
-        let error_m = OVERESTIMATE_CELLS * self.frame().resolution_m() + MIN_CLEARANCE_M;
-        // How much any point of the body moves while the rear axle moves by 1.
-        let lever = 1.0 + drive.curvature_per_m.abs() * body.reach_m();
-        let (mut free_m, mut at_m) = (0.0, 0.0);
-        loop {
-            let pose = drive.pose_at(at_m / length_m);
-            let estimate_m = self.clearance_estimate_m(body, pose, ENOUGH_HALF_LENGTHS * half_m);
-            let room_m = (estimate_m - error_m) / lever;
-            if room_m > 0.25 * least_m && at_m - room_m < free_m {
-                free_m = at_m + room_m;
-                at_m = free_m + 0.75 * room_m;
-            } else {
-                let to_m = (free_m + least_m).min(length_m);
-                if !self.is_free(body, &drive.between(free_m / length_m, to_m / length_m)) {
-                    return false;
+                match look(&drive.between(known_m / length_m, to_m / length_m)) {
+                    Some(more_m) => needed_m = more_m,
+                    None => return,
                 }
-                (free_m, at_m) = (to_m, to_m);
-            }
-            if free_m >= length_m {
-                return true;
+                (known_m, at_m) = (to_m, to_m);
             }
             at_m = at_m.min(length_m);
         }

@@ -1,5 +1,6 @@
-//! Random streams, integration, numbers in words: what everything else is made of.
+//! Random streams, integration, hashes, numbers in words: what everything else is made of.
 
+mod fnv;
 mod fractional;
 mod gamma;
 mod golden_section;
@@ -7,6 +8,7 @@ mod random;
 mod runge_kutta;
 mod words;
 
+pub use fnv::Fnv;
 pub use fractional::{FractionalDerivative, FractionalStream, grunwald_letnikov_weights};
 pub use gamma::ln_gamma;
 pub use golden_section::golden_section;

@@ -2,6 +2,7 @@
 
 use super::path_document::PathDocument;
 use super::{Explanation, RequestDocument};
+use crate::map::GridFrame;
 use crate::metrics::PathMetrics;
 use crate::numeric::Seed;
 use crate::planner::{NotFound, Outcome, Plan, PlanError, Planner, PlannerConfig, Stages};
@@ -217,6 +218,21 @@ pub struct MapRecord {
     pub soft_costs: Option<SoftCostsRecord>,
 }
 
+impl MapRecord {
+    /// The same source with size and place of a frame.
+    #[must_use]
+    pub fn on(&self, frame: &GridFrame) -> Self {
+        let origin = frame.origin();
+        Self {
+            n_cols: frame.n_cols(),
+            n_rows: frame.n_rows(),
+            resolution_m: frame.resolution_m(),
+            origin: [origin.x, origin.y, origin.heading],
+            ..self.clone()
+        }
+    }
+}
+
 /// Source of soft costs.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -322,18 +338,10 @@ impl AnswerContext<'_> {
     }
 
     fn provenance(&self, request: Option<RequestDocument>) -> Provenance {
-        let frame = self.planner.obstacles().frame();
-        let origin = frame.origin();
         let vehicle = self.planner.vehicle();
         Provenance {
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            map: MapRecord {
-                n_cols: frame.n_cols(),
-                n_rows: frame.n_rows(),
-                resolution_m: frame.resolution_m(),
-                origin: [origin.x, origin.y, origin.heading],
-                ..self.map.clone()
-            },
+            map: self.map.on(self.planner.obstacles().frame()),
             vehicle: VehicleRecord {
                 name: self.vehicle_name.to_owned(),
                 motion: vehicle.motion(),

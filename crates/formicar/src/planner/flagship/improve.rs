@@ -1,7 +1,7 @@
 //! The improvement of the first path, and of others that hybrid A* and ants still find.
 
 use super::query::Query;
-use super::race::{FirstPath, RaceStage};
+use super::race::{FirstPath, Origin, RaceStage};
 use crate::colony::drive::DriveColony;
 use crate::geometry::{Arc, Point2};
 use crate::numeric::Seed;
@@ -109,20 +109,22 @@ impl Best<'_> {
         let n_steps = SECOND_STEPS.max(limits.n_steps() / SECOND_SHARE);
         self.offer(first.path, limits)?;
         self.heed_soft_costs(limits)?;
-        if first.is_mended {
-            return Ok(());
-        }
-        let Some(stage) = first.stage else {
-            self.doubt_a_curve(n_steps, limits)?;
-            if self.least_clearance_m() >= 0.5 * self.query.cost.clearance_wish_m {
-                return Ok(());
+        let query = self.query;
+        match first.origin {
+            Origin::Mended => Ok(()),
+            Origin::Curve => {
+                self.doubt_a_curve(n_steps, limits)?;
+                if self.least_clearance_m() >= 0.5 * query.cost.clearance_wish_m {
+                    return Ok(());
+                }
+                self.search_with_room(query.problem, n_steps, limits)
             }
-            let query = self.query;
-            return self.search_with_room(query.problem, n_steps, limits);
-        };
-        let problem = stage.problem.clone();
-        self.search_on(stage, n_steps, limits)?;
-        self.search_with_room(&problem, n_steps, limits)
+            Origin::Stage(stage) => {
+                let problem = stage.problem.clone();
+                self.search_on(stage, n_steps, limits)?;
+                self.search_with_room(&problem, n_steps, limits)
+            }
+        }
     }
 
     /// Searches by the whole cost where the first path, a single curve, is dear beside the cheapest

@@ -2,7 +2,7 @@
 
 use super::config::FormicarParameters;
 use super::improve::{Announce, Improvement};
-use super::race::{FirstPath, Rules};
+use super::race::{FirstPath, Origin, Rules};
 use crate::geometry::{Arc, Point2, Pose2};
 use crate::objective::{DriveMeter, VehicleCost};
 use crate::path::CurvePath;
@@ -99,8 +99,7 @@ impl Query<'_> {
         };
         let mended = FirstPath {
             path,
-            stage: None,
-            is_mended: true,
+            origin: Origin::Mended,
         };
         let old = self.improve(mended, Announce::Certified, limits);
         let mut found = self.found(&old)?;

@@ -26,10 +26,17 @@ pub(super) struct Rules<'a> {
 /// The first path of a race.
 pub(super) struct FirstPath<'a> {
     pub(super) path: Driven,
-    /// The stage that found it; none where a single curve was free.
-    pub(super) stage: Option<RaceStage<'a>>,
+    pub(super) origin: Origin<'a>,
+}
+
+/// The origin of a first path.
+pub(super) enum Origin<'a> {
+    /// A single curve that was free.
+    Curve,
+    /// The stage that found it.
+    Stage(RaceStage<'a>),
     /// A previous path made whole: no other takes its place.
-    pub(super) is_mended: bool,
+    Mended,
 }
 
 /// A stage as it stands when the first path is found.
@@ -52,8 +59,7 @@ pub(super) fn race<'a>(
     if let Some(path) = problem.cheapest_curve(&rules.cost) {
         return Ok(FirstPath {
             path,
-            stage: None,
-            is_mended: false,
+            origin: Origin::Curve,
         });
     }
     let n_before = limits.n_steps();
@@ -139,12 +145,11 @@ fn run<'a>(
     };
     Ok(Some(FirstPath {
         path,
-        stage: Some(RaceStage {
+        origin: Origin::Stage(RaceStage {
             problem,
             guide,
             hybrid,
         }),
-        is_mended: false,
     }))
 }
 

@@ -1,8 +1,16 @@
-//! FNV-1a, a hash of bytes for checksums and fingerprints; no defense against an adversary.
+//! FNV-1a (Fowler, Noll & Vo), a hash of bytes for checksums and fingerprints.
 
-/// The hash so far.
+/// The 64-bit hash FNV-1a of the bytes so far; no defense against an adversary.
+///
+/// ```
+/// use formicar::numeric::Fnv;
+///
+/// let mut hash = Fnv::default();
+/// hash.add(b"foobar");
+/// assert_eq!(hash.value(), 0x8594_4171_f739_67e8);
+/// ```
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Fnv(u64);
+pub struct Fnv(u64);
 
 impl Default for Fnv {
     fn default() -> Self {
@@ -12,14 +20,14 @@ impl Default for Fnv {
 
 impl Fnv {
     /// Adds bytes.
-    pub(crate) fn add(&mut self, bytes: &[u8]) {
+    pub fn add(&mut self, bytes: &[u8]) {
         for &byte in bytes {
             self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
         }
     }
 
     /// The hash.
-    pub(crate) fn value(self) -> u64 {
+    pub fn value(self) -> u64 {
         self.0
     }
 }
