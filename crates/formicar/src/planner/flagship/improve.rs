@@ -121,7 +121,7 @@ impl Best<'_> {
             }
             Origin::Stage(stage) => {
                 let problem = stage.problem.clone();
-                self.search_on(stage, n_steps, limits)?;
+                self.search_on(*stage, n_steps, limits)?;
                 self.search_with_room(&problem, n_steps, limits)
             }
         }

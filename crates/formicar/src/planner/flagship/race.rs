@@ -34,7 +34,7 @@ pub(super) enum Origin<'a> {
     /// A single curve that was free.
     Curve,
     /// The stage that found it.
-    Stage(RaceStage<'a>),
+    Stage(Box<RaceStage<'a>>),
     /// A previous path made whole: no other takes its place.
     Mended,
 }
@@ -145,11 +145,11 @@ fn run<'a>(
     };
     Ok(Some(FirstPath {
         path,
-        origin: Origin::Stage(RaceStage {
+        origin: Origin::Stage(Box::new(RaceStage {
             problem,
             guide,
             hybrid,
-        }),
+        })),
     }))
 }
 

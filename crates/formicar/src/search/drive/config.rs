@@ -21,7 +21,8 @@ parameters! {
         #[range(0.05..=1.0)]
         pub step_radii: f64 = 0.25,
         /// The share of the surcharges for reverse, changes of gear and nearness that the search
-        /// counts: with 1 it looks for the cheapest path, with less it finds one sooner.
+        /// counts: with 1 it looks for the cheapest path, with less it finds one sooner. On the
+        /// refined lattice it counts none.
         #[range(0.0..=1.0)]
         pub cost_share: f64 = 0.1,
         /// Added to the factor on an arc that steers the other way than the motion before.
@@ -34,18 +35,10 @@ parameters! {
 }
 
 impl HybridAstarConfig {
-    /// The cost of motions: that of driving, and what turned wheels cost a search. Jumps and bends
-    /// are priced by the factor on turned wheels alone, since motions cannot choose their radius.
-    pub fn cost_of_motions(&self, cost: &VehicleCost) -> VehicleCost {
-        self.share_of(cost, self.cost_share)
-    }
-
-    /// The same with every surcharge counted in full.
-    pub fn full_cost_of_motions(&self, cost: &VehicleCost) -> VehicleCost {
-        self.share_of(cost, 1.0)
-    }
-
-    fn share_of(&self, cost: &VehicleCost, share: f64) -> VehicleCost {
+    /// The cost of motions: that of driving, a share of its surcharges, and what turned wheels cost
+    /// a search. Jumps and bends are priced by the factor on turned wheels alone, since motions
+    /// cannot choose their radius.
+    pub fn cost_of_motions(&self, cost: &VehicleCost, share: f64) -> VehicleCost {
         VehicleCost {
             turn_factor: self.non_straight_penalty,
             swing_factor: self.change_penalty,

@@ -18,7 +18,8 @@ pub struct DriveProblem<'a> {
     pub(super) config: &'a HybridAstarConfig,
     /// Of motions.
     pub(super) cost: VehicleCost,
-    full_cost: VehicleCost,
+    /// Of driving.
+    whole_cost: VehicleCost,
     gears: Gears,
     /// Gears of the steps on the way; the last curve may use all of the request's.
     pub(super) step_gears: Gears,
@@ -53,8 +54,8 @@ impl<'a> DriveProblem<'a> {
             map,
             lattice: map.coarse(),
             config,
-            cost: config.cost_of_motions(cost),
-            full_cost: config.full_cost_of_motions(cost),
+            cost: config.cost_of_motions(cost, config.cost_share),
+            whole_cost: *cost,
             gears: request.gears,
             step_gears: request.gears,
             region: GoalRegion::of(request).map_poses(|pose| obstacles.frame().to_grid(pose)),
@@ -82,17 +83,20 @@ impl<'a> DriveProblem<'a> {
     #[must_use]
     pub fn at_full_cost(&self) -> Self {
         Self {
-            cost: self.full_cost,
+            cost: self.config.cost_of_motions(&self.whole_cost, 1.0),
             ..self.clone()
         }
     }
 
     /// The same query on a lattice of steps a quarter as long and headings four times as dense,
-    /// with every motion looked at exactly, for places where a vehicle must shunt.
+    /// with every motion looked at exactly and without surcharges, for places where a vehicle must
+    /// shunt: there any path is good news, and the way to it is shorter where a change of gear costs
+    /// nothing.
     #[must_use]
     pub fn refined(&self) -> Self {
         Self {
             lattice: self.map.fine(),
+            cost: self.config.cost_of_motions(&self.whole_cost, 0.0),
             ..self.exact()
         }
     }
