@@ -8,8 +8,10 @@ use formicar::map::format::{ReadOptions, read_car_scenarios, read_map};
 use formicar::objective::DriveCost;
 use formicar::planner::PlannerName;
 use formicar::scenario::{GoalTolerance, ViaPoint};
+use formicar::vehicle::VehicleParameters;
 use formicar::{OccupancyGrid, Plan, Planner, PlannerConfig, Pose2, Request, Seed, Vehicle};
 use proptest::prelude::*;
+use std::f64::consts::PI;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -126,6 +128,38 @@ fn a_blocked_goal_is_reached_within_its_tolerance() {
     request.goal_tolerance.xy_m = 0.25;
     let plan = plan(&map, &Vehicle::warehouse_amr(), &request).expect("a path");
     assert!(plan.certificate.valid && plan.metrics.min_clearance_m > 0.05);
+}
+
+/// A long trolley turns round in a corridor only by shunting many times.
+#[test]
+fn a_trolley_shunts_round_in_a_corridor_hardly_wider_than_it_is_long() {
+    let trolley = VehicleParameters {
+        wheelbase_m: Some(1.0),
+        width_m: Some(0.5),
+        front_overhang_m: Some(0.5),
+        rear_overhang_m: Some(0.9),
+        min_turning_radius_m: Some(1.0),
+        ..VehicleParameters::default()
+    };
+    let trolley = Vehicle::new(trolley).expect("a vehicle");
+    let (wall, way) = ("#".repeat(240), format!("#{}#", ".".repeat(238)));
+    for (n_rows, most_steps) in [(52, 60_000), (56, 20_000)] {
+        let mut rows = vec![&way[..]; n_rows + 2];
+        (rows[0], rows[n_rows + 1]) = (&wall, &wall);
+        let map = OccupancyGrid::from_rows(&rows, 0.05).expect("rows");
+        let y = 0.025 * (n_rows + 2) as f64;
+        let request = Request {
+            budget_steps: Some(most_steps),
+            ..Request::new(Pose2::new(5.0, y, 0.0), Pose2::new(7.0, y, PI))
+        };
+        let plan = plan(&Arc::new(ObstacleMap::new(&map)), &trolley, &request);
+        let plan = plan.expect("a path");
+        assert!(
+            plan.certificate.valid && plan.metrics.n_cusps <= 21,
+            "{:?}",
+            plan.metrics
+        );
+    }
 }
 
 /// A request on a map: name, map, vehicle, start and goal.

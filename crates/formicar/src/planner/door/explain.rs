@@ -25,7 +25,7 @@ pub(super) fn explain(task: &Task, status: Status, n_steps: u64) -> (String, Exp
                 Ok(gap) => out_of_steps(task, gap, n_steps),
                 Err(sentence) => sentence,
             };
-            format!("no path within {steps}; {rest}")
+            format!("no path within {steps}, which proves nothing; {rest}")
         }
         Status::TimedOut => {
             let deadline = task.request().deadline;
@@ -44,7 +44,7 @@ pub(super) fn explain(task: &Task, status: Status, n_steps: u64) -> (String, Exp
 
 fn turning_fails(task: &Task, gap: &Gap, steps: &str) -> String {
     format!(
-        "{} searched all it can reach ({steps}); {}, so turning is what fails; hint: {}; {}",
+        "{} searched all it can reach ({steps}); {}, so turning is what fails on its lattice, which does not prove that there is no path; hint: {}; {}",
         task.planner(),
         gap.in_words(),
         relaxations(task.request()),

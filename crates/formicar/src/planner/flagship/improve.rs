@@ -27,8 +27,10 @@ const N_ROOMS: i32 = 4;
 const MORE_ROOM: f64 = 1.2;
 /// A second search has so many steps from either end,
 const SECOND_STEPS: u64 = 5_000;
-/// or those of the first path divided by this, whichever is more.
+/// or those of the first path divided by this, whichever is more;
 const SECOND_SHARE: u64 = 4;
+/// on the refined lattice, so many.
+const REFINED_SECOND_STEPS: u64 = 20_000;
 
 /// Paths that are announced to the observer while they improve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -135,7 +137,7 @@ impl Best<'_> {
             return Ok(());
         }
         let query = self.query;
-        self.search_by_full_cost(query.problem, n_steps, limits)
+        self.search_by_higher_cost(query.problem, n_steps, limits)
             .map(|_| ())
     }
 
@@ -164,7 +166,7 @@ impl Best<'_> {
                 Err(status) => return Err(status),
             }
         }
-        if is_good(self) || self.search_by_full_cost(&problem, n_steps, limits)? {
+        if is_good(self) || self.search_by_higher_cost(&problem, n_steps, limits)? {
             return Ok(());
         }
         let sends_none = rules.config.n_stalled == 0 || rules.config.n_ants == 0;
@@ -200,17 +202,24 @@ impl Best<'_> {
         }
     }
 
-    /// Offers the paths that hybrid A* finds from either end by the whole cost: the first path may
+    /// Offers the paths that hybrid A* finds from either end at a higher cost: the first path may
     /// be a maneuver that local search does not leave. Returns whether there were any.
-    fn search_by_full_cost(
+    fn search_by_higher_cost(
         &mut self,
         problem: &DriveProblem,
         n_steps: u64,
         limits: &mut Limits,
     ) -> Result<bool, Status> {
         let mut is_found = false;
-        let whole = problem.at_full_cost();
-        for problem in [whole.swapped(), Some(whole)].into_iter().flatten() {
+        let n_steps = if problem.is_refined() {
+            n_steps.max(REFINED_SECOND_STEPS)
+        } else {
+            n_steps
+        };
+        let dearer = problem.at_higher_cost();
+        let other_end = problem.swapped().filter(|_| problem.is_refined());
+        let problems = [other_end, dearer.swapped(), Some(dearer)];
+        for problem in problems.into_iter().flatten() {
             if let Some(path) = search_within(n_steps, &problem, limits)? {
                 is_found = true;
                 self.offer(path, limits)?;

@@ -9,7 +9,7 @@ use crate::search::{DriveProblem, Driven, Guide, HybridSearch, Stage};
 
 /// Steps of hybrid A* in the first turn; each turn is a quarter longer than the one before.
 const FIRST_TURN_STEPS: u64 = 500;
-/// Stages of the ladder in which ants take part.
+/// Stages of the ladder in which ants take part: the first, on the lattice of the map.
 const N_ANT_STAGES: usize = 3;
 /// Generations that ants are sent in a stage.
 const N_GENERATIONS: u32 = 60;

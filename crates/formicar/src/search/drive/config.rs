@@ -8,6 +8,7 @@ parameters! {
     /// search over motions needs.
     pub struct HybridAstarConfig {
         /// Weight of the heuristic: at 1 the path is near the best on the lattice, more is faster.
+        /// On the refined lattice, twice that.
         #[range(1.0..=10.0)]
         pub weight: f64 = 1.5,
         /// Search steps after which to give up; a request's budget may be lower.
@@ -22,7 +23,7 @@ parameters! {
         pub step_radii: f64 = 0.25,
         /// The share of the surcharges for reverse, changes of gear and nearness that the search
         /// counts: with 1 it looks for the cheapest path, with less it finds one sooner. On the
-        /// refined lattice it counts none.
+        /// refined lattice, where a vehicle must shunt, a first search counts none.
         #[range(0.0..=1.0)]
         pub cost_share: f64 = 0.1,
         /// Added to the factor on an arc that steers the other way than the motion before.

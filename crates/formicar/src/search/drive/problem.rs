@@ -10,6 +10,18 @@ use crate::objective::VehicleCost;
 use crate::scenario::{GoalRegion, Request};
 use crate::vehicle::{Gears, PrimitiveSet};
 
+/// The weight of the heuristic on the refined lattice, a multiple of the configured one: what lies
+/// between two poses is short, and any way is good news.
+const REFINED_WEIGHT: f64 = 2.0;
+
+/// The shares of the surcharges for reverse, changes of gear and nearness that a search counts, on
+/// the lattice of the map and on the refined one.
+#[derive(Clone, Copy)]
+struct CostShares {
+    coarse: f64,
+    refined: f64,
+}
+
 /// A request on a prepared map, in grid coordinates.
 #[derive(Clone)]
 pub struct DriveProblem<'a> {
@@ -20,6 +32,8 @@ pub struct DriveProblem<'a> {
     pub(super) cost: VehicleCost,
     /// Of driving.
     whole_cost: VehicleCost,
+    shares: CostShares,
+    is_refined: bool,
     gears: Gears,
     /// Gears of the steps on the way; the last curve may use all of the request's.
     pub(super) step_gears: Gears,
@@ -56,6 +70,11 @@ impl<'a> DriveProblem<'a> {
             config,
             cost: config.cost_of_motions(cost, config.cost_share),
             whole_cost: *cost,
+            shares: CostShares {
+                coarse: config.cost_share,
+                refined: 0.0,
+            },
+            is_refined: false,
             gears: request.gears,
             step_gears: request.gears,
             region: GoalRegion::of(request).map_poses(|pose| obstacles.frame().to_grid(pose)),
@@ -78,26 +97,55 @@ impl<'a> DriveProblem<'a> {
         Self { soft_costs, ..self }
     }
 
-    /// The same query with every surcharge counted in full, for the cheapest path instead of the
-    /// soonest.
+    /// The same query for a cheaper path instead of the soonest: with every surcharge counted in
+    /// full, on the refined lattice with the share that a first search counts on the other.
     #[must_use]
-    pub fn at_full_cost(&self) -> Self {
+    pub fn at_higher_cost(&self) -> Self {
+        let shares = CostShares {
+            coarse: 1.0,
+            refined: self.config.cost_share,
+        };
         Self {
-            cost: self.config.cost_of_motions(&self.whole_cost, 1.0),
+            shares,
             ..self.clone()
         }
+        .priced()
     }
 
     /// The same query on a lattice of steps a quarter as long and headings four times as dense,
-    /// with every motion looked at exactly and without surcharges, for places where a vehicle must
-    /// shunt: there any path is good news, and the way to it is shorter where a change of gear costs
-    /// nothing.
+    /// with every motion looked at exactly and at first without surcharges, for places where a
+    /// vehicle must shunt: the way is found sooner where a change of gear costs nothing.
     #[must_use]
     pub fn refined(&self) -> Self {
         Self {
             lattice: self.map.fine(),
-            cost: self.config.cost_of_motions(&self.whole_cost, 0.0),
+            is_refined: true,
             ..self.exact()
+        }
+        .priced()
+    }
+
+    fn priced(mut self) -> Self {
+        let share = if self.is_refined {
+            self.shares.refined
+        } else {
+            self.shares.coarse
+        };
+        self.cost = self.config.cost_of_motions(&self.whole_cost, share);
+        self
+    }
+
+    /// True on the refined lattice.
+    pub fn is_refined(&self) -> bool {
+        self.is_refined
+    }
+
+    /// The weight of the heuristic.
+    pub fn weight(&self) -> f64 {
+        if self.is_refined {
+            REFINED_WEIGHT * self.config.weight
+        } else {
+            self.config.weight
         }
     }
 

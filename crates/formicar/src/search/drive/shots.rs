@@ -17,6 +17,8 @@ const MAX_COUNTED_GOALS: usize = 4;
 const RADII_PER_SHOT: f64 = 3.0;
 /// Largest interval between two tries, states.
 const MOST_STATES_PER_SHOT: u64 = 32;
+/// On the refined lattice, whose states are dense, so many times fewer are tried.
+const REFINED_RARITY: u64 = 16;
 
 impl DriveProblem<'_> {
     /// Whether it is time to try a curve to the goal from a position, the n-th that is looked at.
@@ -25,7 +27,8 @@ impl DriveProblem<'_> {
             return false;
         };
         let every = (to_go_m / (RADII_PER_SHOT * self.map().radius_m())) as u64 + 1;
-        n.is_multiple_of(every.min(MOST_STATES_PER_SHOT))
+        let rarity = if self.is_refined() { REFINED_RARITY } else { 1 };
+        n.is_multiple_of(rarity * every.min(MOST_STATES_PER_SHOT))
     }
 
     /// The cheapest free curve from a state to a goal pose among the shortest words, with its

@@ -49,8 +49,12 @@ pub fn hybrid_astar(problem: &DriveProblem, limits: &mut Limits) -> Result<Drive
     }
 }
 
-/// Steps after which, usually, the next guide, side or lattice is tried.
-const PATIENCE_STEPS: u64 = 50_000;
+/// Steps after which, at first, the next side or lattice is tried; most queries need fewer.
+const SHORT_PATIENCE: u64 = 4_000;
+/// Steps on the refined lattice, where a state costs more,
+const MIDDLE_PATIENCE: u64 = 20_000;
+/// and then on that of the map again.
+const LONG_PATIENCE: u64 = 50_000;
 
 /// A search, and how long it may take.
 pub struct Stage<'a> {
@@ -63,29 +67,37 @@ pub struct Stage<'a> {
 }
 
 impl<'a> Stage<'a> {
-    /// The searches to try, one after the other.
+    /// The searches to try, one after the other; on the refined lattice, one.
     ///
-    /// A guide that leads astray, or a tight place at the other end, must not cost all the time
-    /// there is: patience is short where hope is small, and unbounded only at the end.
+    /// A guide that leads astray, a tight place at the other end or one that only shunting leaves
+    /// must not cost all the time there is: each lattice is tried from either end for a short
+    /// while, then longer, and without bound only at the end.
     pub fn ladder(problem: &DriveProblem<'a>) -> impl Iterator<Item = Self> + use<'a> {
         use Inflation::{Roomy, Sure, Turning, Wide};
         let (coarse, exact, fine) = (problem.clone(), problem.exact(), problem.refined());
         let from_goal = problem.swapped();
         let (exact_from_goal, fine_from_goal) = (exact.swapped(), fine.swapped());
         let roomy = problem.keeps_clearance().then(|| coarse.clone());
-        let stages = [
-            (roomy, Roomy, PATIENCE_STEPS),
-            (Some(coarse.clone()), Turning, PATIENCE_STEPS),
-            (from_goal, Turning, PATIENCE_STEPS),
-            (Some(exact.clone()), Wide, PATIENCE_STEPS),
-            (Some(fine.clone()), Wide, PATIENCE_STEPS / 10),
-            (fine_from_goal.clone(), Wide, PATIENCE_STEPS / 10),
-            (exact_from_goal, Wide, PATIENCE_STEPS),
-            (fine_from_goal, Wide, PATIENCE_STEPS),
-            (Some(fine.clone()), Wide, PATIENCE_STEPS),
-            (Some(exact), Sure, 10 * PATIENCE_STEPS),
-            (Some(fine), Sure, u64::MAX),
-        ];
+        let stages = if problem.is_refined() {
+            vec![(Some(fine), Wide, u64::MAX)]
+        } else {
+            vec![
+                (roomy, Roomy, LONG_PATIENCE),
+                (Some(coarse.clone()), Turning, SHORT_PATIENCE),
+                (from_goal.clone(), Turning, SHORT_PATIENCE),
+                (Some(exact.clone()), Wide, SHORT_PATIENCE),
+                (Some(fine.clone()), Wide, SHORT_PATIENCE),
+                (fine_from_goal.clone(), Wide, SHORT_PATIENCE),
+                (Some(fine.clone()), Wide, MIDDLE_PATIENCE),
+                (fine_from_goal, Wide, MIDDLE_PATIENCE),
+                (Some(coarse), Turning, LONG_PATIENCE),
+                (from_goal, Turning, LONG_PATIENCE),
+                (Some(exact.clone()), Wide, LONG_PATIENCE),
+                (exact_from_goal, Wide, LONG_PATIENCE),
+                (Some(exact), Sure, 10 * LONG_PATIENCE),
+                (Some(fine), Sure, u64::MAX),
+            ]
+        };
         stages
             .into_iter()
             .filter_map(|(problem, inflation, patience_steps)| {

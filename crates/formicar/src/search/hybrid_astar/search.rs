@@ -132,7 +132,7 @@ impl<'a> HybridSearch<'a> {
         };
         self.states.reach(key, state.cost);
         let node = self.tree.add(state, Some(entry.node));
-        let estimate = state.cost + self.problem.config().weight * to_go;
+        let estimate = state.cost + self.problem.weight() * to_go;
         if estimate > entry.estimate {
             self.open.push(Entry {
                 node,
@@ -186,7 +186,7 @@ impl<'a> HybridSearch<'a> {
             return Ok(());
         };
         let along_curve = guide.along_curve_m(&self.problem, from.pose, along_field);
-        let weight = self.problem.config().weight;
+        let weight = self.problem.weight();
         let mut promising = Vec::with_capacity(self.problem.n_primitives());
         self.problem.successors(&from, |step, state| {
             if self.states.improves(self.problem.key(&state), state.cost) {
