@@ -6,7 +6,7 @@ use super::generation::Generation;
 use super::graph::StepGraph;
 use super::node::Node;
 use super::visited::{BitAddress, VisitedCells};
-use super::worker_pool::AntWorker;
+use super::worker_pool::{AntWorker, Pace};
 use crate::numeric::{RandomStream, Seed};
 use std::ops::Range;
 
@@ -31,11 +31,17 @@ impl<'a> CellWorker<'a> {
     }
 
     /// Walks until the goal, or until no step is left; returns whether the ant arrived.
-    fn walk(&mut self, nodes: &[Node], stream: &mut RandomStream, steps: &mut Vec<u8>) -> bool {
+    fn walk(
+        &mut self,
+        nodes: &[Node],
+        stream: &mut RandomStream,
+        steps: &mut Vec<u8>,
+        pace: &mut Pace,
+    ) -> bool {
         let (first_step, mut n_left) = (steps.len(), self.config.dead_end.max_retreats());
         let (mut at, goal) = self.graph.ends;
         self.visit(nodes[at].address);
-        while Some(at) != goal {
+        while Some(at) != goal && pace.step() {
             let node = &nodes[at];
             let open = node.allowed & !self.visited.around(node.address);
             let step = if open != 0 {
@@ -54,7 +60,7 @@ impl<'a> CellWorker<'a> {
             };
             at = node.next(at, (usize::from(step) + 4) % 8);
         }
-        true
+        Some(at) == goal
     }
 
     #[inline]
@@ -68,16 +74,21 @@ impl AntWorker for CellWorker<'_> {
     type Shared = Vec<Node>;
     type Batch = Generation<CellCost>;
 
+    const STEPS_PER_LOOK: u32 = 4096;
+
     fn walk_ants(
         &mut self,
         nodes: &Vec<Node>,
-        iteration: u32,
-        ants: Range<u32>,
+        (iteration, ants): (u32, Range<u32>),
         generation: &mut Generation<CellCost>,
+        pace: &mut Pace,
     ) {
         for ant in ants {
+            if pace.is_over() {
+                return;
+            }
             let mut stream = self.seed.stream([u64::from(iteration), u64::from(ant)]);
-            let has_arrived = self.walk(nodes, &mut stream, &mut generation.steps);
+            let has_arrived = self.walk(nodes, &mut stream, &mut generation.steps, pace);
             let cost = if has_arrived {
                 CellCost::new(&self.config.cost, generation.open_steps())
             } else {

@@ -23,7 +23,7 @@ use std::sync::Arc;
 /// Runs a colony on a problem.
 ///
 /// Same problem, configuration and seed: same run, to the last bit, on any number of threads. A
-/// step of the limits is a step of an ant; deadline and cancel are looked at every few ants.
+/// step of the limits is a step of an ant; deadline and cancel are looked at every few steps.
 /// An iteration takes time in proportion to the cells that can be reached and to the steps walked.
 ///
 /// # Errors
@@ -104,9 +104,10 @@ impl<'a> Colony for CellColony<'a> {
         }
     }
 
-    fn prepare(&mut self, _iteration: u32) -> &Arc<Vec<Node>> {
+    fn prepare(&mut self, _iteration: u32, goes_on: &mut dyn FnMut() -> bool) -> &Arc<Vec<Node>> {
         let nodes = Arc::make_mut(&mut self.nodes);
-        self.trails.weigh(self.config.alpha, self.graph, nodes);
+        self.trails
+            .weigh(self.config.alpha, self.graph, nodes, goes_on);
         &self.nodes
     }
 

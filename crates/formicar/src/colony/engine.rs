@@ -29,8 +29,12 @@ pub(super) trait Colony {
     /// The ends of all paths, and the steps between them.
     fn space(&self) -> StepSpace<'_>;
 
-    /// Makes ready what the ants of an iteration read.
-    fn prepare(&mut self, iteration: u32) -> &Arc<<Self::Worker as AntWorker>::Shared>;
+    /// Makes ready what the ants of an iteration read; of no use where `goes_on` said no meanwhile.
+    fn prepare(
+        &mut self,
+        iteration: u32,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> &Arc<<Self::Worker as AntWorker>::Shared>;
 
     /// Evaporates a share `rho` of the pheromone, and deposits what the ants of an iteration add.
     fn update(
@@ -119,13 +123,12 @@ impl<C: Colony> Engine<C> {
         generation: &mut Generation<C::Cost>,
         limits: &mut Limits,
     ) -> Option<Stop> {
-        let mut halted = None;
-        let shared = self.colony.prepare(iteration);
-        pool.walk_while(shared, iteration, generation, &mut || {
-            halted = limits.look().err();
-            halted.is_none()
-        });
-        if let Some(status) = halted {
+        let mut goes_on = || limits.look().is_ok();
+        let shared = self.colony.prepare(iteration, &mut goes_on);
+        if goes_on() {
+            pool.walk_while(shared, iteration, generation, &mut goes_on);
+        }
+        if let Err(status) = limits.look() {
             return Some(Stop::of_limit(status));
         }
         let n_steps = limits.take(generation.n_steps());

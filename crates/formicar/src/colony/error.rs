@@ -1,6 +1,7 @@
 //! Errors of colonies.
 
 use crate::parameters::OutOfRange;
+use crate::progress::Status;
 use crate::search::SearchError;
 use crate::vehicle::VehicleError;
 use thiserror::Error;
@@ -28,4 +29,10 @@ pub enum RunError {
         /// Cells that ants may reach.
         max: usize,
     },
+}
+
+impl From<Status> for RunError {
+    fn from(status: Status) -> Self {
+        Self::Search(status.into())
+    }
 }

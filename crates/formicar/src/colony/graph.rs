@@ -11,7 +11,7 @@ use super::node::Node;
 use super::problem::ColonyProblem;
 use super::visited::VisitedCells;
 use crate::map::{STEP_COSTS, STEPS};
-use crate::progress::Limits;
+use crate::progress::{Limits, Status};
 use crate::search::{GoalField, STRAIGHT_COST, SearchError};
 use std::ops::Range;
 
@@ -42,15 +42,17 @@ impl StepGraph {
         let moves = problem.moves();
         let (start, goal) = (moves.index(problem.start()), moves.index(problem.goal()));
         let region = Region::new(problem, config, limits)?;
-        let cells = region.reachable(start)?;
+        let mut limits = limits.without_budget();
+        let cells = region.reachable(start, &mut limits)?;
         let number = |cell: usize| cells.binary_search(&(cell as u32)).ok();
         let ends = (number(start).unwrap_or_default(), number(goal));
-        let mut nodes = nodes(problem, config, &region, &cells);
-        let log = log_desire(problem, config, &region, &cells);
-        let desire = nodes
-            .iter()
-            .enumerate()
-            .map(|(at, node)| desires(&log, node, at));
+        let mut nodes = nodes(problem, config, &region, &cells, &mut limits)?;
+        let log = log_desire(problem, config, (&region, &cells), &mut limits)?;
+        let mut desire = Vec::with_capacity(nodes.len());
+        for (at, node) in nodes.iter().enumerate() {
+            limits.step()?;
+            desire.push(desires(&log, node, at));
+        }
         let graph = Self {
             n_cols: moves.n_cols(),
             n_rows: moves.n_rows(),
@@ -58,7 +60,7 @@ impl StepGraph {
             offsets: moves.offsets(),
             spans: spans(&cells),
             ends,
-            desire: desire.collect(),
+            desire,
             cells,
         };
         if let (AdjacentGoal::Taken, Some(goal)) = (config.adjacent_goal, ends.1) {
@@ -133,7 +135,7 @@ impl<'a> Region<'a> {
     }
 
     /// The cells that allowed steps lead to, in ascending order.
-    fn reachable(&self, start: usize) -> Result<Vec<u32>, RunError> {
+    fn reachable(&self, start: usize, limits: &mut Limits) -> Result<Vec<u32>, RunError> {
         let max = ColonyProblem::MAX_CELLS;
         let mut is_reached = vec![false; self.masks.len()];
         is_reached[start] = true;
@@ -141,6 +143,7 @@ impl<'a> Region<'a> {
         let mut next = 0;
         while let Some(&cell) = cells.get(next) {
             next += 1;
+            limits.step()?;
             for step in steps_in(self.steps(cell as usize)) {
                 let to = (cell as usize).wrapping_add_signed(self.offsets[step]);
                 if !std::mem::replace(&mut is_reached[to], true) {
@@ -152,8 +155,8 @@ impl<'a> Region<'a> {
                 return Err(RunError::TooLarge { n_cells, max });
             }
         }
-        cells.sort_unstable();
-        Ok(cells)
+        let all = is_reached.iter().zip(0..);
+        Ok(all.filter(|(is, _)| **is).map(|(_, cell)| cell).collect())
     }
 }
 
@@ -180,11 +183,13 @@ fn nodes(
     config: &ColonyConfig,
     region: &Region,
     cells: &[u32],
-) -> Vec<Node> {
+    limits: &mut Limits,
+) -> Result<Vec<Node>, Status> {
     let moves = problem.moves();
     let n_cols = moves.n_cols() as i64;
     let (mut below, mut above) = (Row::new(cells), Row::new(cells));
     let node = |&index: &u32| {
+        limits.step()?;
         let cell = moves.cell(index as usize);
         let west = i64::from(index) - 1;
         let mut node = Node::new(
@@ -196,7 +201,7 @@ fn nodes(
             below.three_from(west - n_cols),
             above.three_from(west + n_cols),
         );
-        node
+        Ok(node)
     };
     cells.iter().map(node).collect()
 }
@@ -251,14 +256,16 @@ fn desires(log: &LogDesire, node: &Node, at: usize) -> [f32; 8] {
 fn log_desire(
     problem: &ColonyProblem,
     config: &ColonyConfig,
-    region: &Region,
-    cells: &[u32],
-) -> LogDesire {
+    (region, cells): (&Region, &[u32]),
+    limits: &mut Limits,
+) -> Result<LogDesire, Status> {
     let mut desire = LogDesire {
         cells: vec![0.0; cells.len()],
         steps: [0.0; 8],
     };
-    config.visibility.add_to(&mut desire, problem, cells);
+    config
+        .visibility
+        .add_to(&mut desire, problem, cells, limits)?;
     if let Some(field) = &region.to_goal {
         // A cell without a path to the goal counts as the farthest of all.
         let cost = |&cell: &u32| field.costs()[cell as usize];
@@ -267,9 +274,9 @@ fn log_desire(
             .map(|cell| f64::from(cost(cell)) / f64::from(STRAIGHT_COST));
         config
             .guidance
-            .add_to(&mut desire, &lengths.collect::<Vec<f64>>());
+            .add_to(&mut desire, &lengths.collect::<Vec<f64>>(), limits)?;
     }
-    desire
+    Ok(desire)
 }
 
 #[cfg(test)]

@@ -17,6 +17,9 @@ pub(super) struct Trails {
     range: (f32, f32),
 }
 
+/// Nodes weighed between two questions whether to go on.
+const NODES_PER_LOOK: usize = 4096;
+
 /// Pheromone counts as gone below this; a floor keeps arithmetic off denormal numbers.
 const NOTHING: f32 = 1e-30;
 
@@ -72,10 +75,37 @@ impl Trails {
     }
 
     /// Sets the weights of all nodes to pheromone to the power of `alpha`, times desire.
-    pub(super) fn weigh(&self, alpha: f64, graph: &StepGraph, nodes: &mut [Node]) {
+    /// Every so many nodes `goes_on` is asked whether to go on.
+    pub(super) fn weigh(
+        &self,
+        alpha: f64,
+        graph: &StepGraph,
+        nodes: &mut [Node],
+        goes_on: &mut dyn FnMut() -> bool,
+    ) {
         // Only proportions matter: relative to the strongest no power overflows.
         let (alpha, unit) = (alpha as f32, 1.0 / self.range.1);
-        for ((node, desire), &cell) in nodes.iter_mut().zip(&graph.desire).zip(&graph.cells) {
+        let mut first = 0;
+        for nodes in nodes.chunks_mut(NODES_PER_LOOK) {
+            if !goes_on() {
+                return;
+            }
+            let range = first..first + nodes.len();
+            first = range.end;
+            self.weigh_some((alpha, unit), graph, nodes, range);
+        }
+    }
+
+    /// Sets the weights of the nodes with a range of numbers.
+    fn weigh_some(
+        &self,
+        (alpha, unit): (f32, f32),
+        graph: &StepGraph,
+        nodes: &mut [Node],
+        range: Range<usize>,
+    ) {
+        let (desires, cells) = (&graph.desire[range.clone()], &graph.cells[range]);
+        for ((node, desire), &cell) in nodes.iter_mut().zip(desires).zip(cells) {
             let cell = cell as usize;
             // A step that is not allowed has no desire, or is never drawn.
             let place = |step: usize| match self.layout {

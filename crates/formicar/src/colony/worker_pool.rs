@@ -3,11 +3,47 @@
 use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
+use std::time::Duration;
 
-/// Ants that set out between two looks at whether others still should.
-const N_ANTS_PER_LOOK: u32 = 8;
+/// While the caller's thread waits for others it looks this often whether they are to go on.
+const WAIT: Duration = Duration::from_micros(200);
+
+/// Asks every so many steps of ants whether they are to go on.
+pub(super) struct Pace<'a> {
+    goes_on: &'a mut dyn FnMut() -> bool,
+    steps_per_look: u32,
+    n_steps: u32,
+    is_over: bool,
+}
+
+impl<'a> Pace<'a> {
+    fn new(steps_per_look: u32, goes_on: &'a mut dyn FnMut() -> bool) -> Self {
+        Self {
+            goes_on,
+            steps_per_look,
+            n_steps: 0,
+            is_over: false,
+        }
+    }
+
+    /// Counts a step; false once no ant is to go on.
+    #[inline]
+    pub(super) fn step(&mut self) -> bool {
+        self.n_steps += 1;
+        if self.n_steps >= self.steps_per_look {
+            self.n_steps = 0;
+            self.is_over = self.is_over || !(self.goes_on)();
+        }
+        !self.is_over
+    }
+
+    /// True once no ant is to go on.
+    pub(super) fn is_over(&self) -> bool {
+        self.is_over
+    }
+}
 
 /// Walks ants, each by random numbers of its own, so that any worker may walk any ant.
 pub(super) trait AntWorker: Send {
@@ -16,13 +52,17 @@ pub(super) trait AntWorker: Send {
     /// The ants' paths.
     type Batch: Batch;
 
-    /// Walks some ants of an iteration, and adds their paths to a batch.
+    /// Steps that take some tenth of a millisecond.
+    const STEPS_PER_LOOK: u32;
+
+    /// Walks some ants of an iteration, both by number, and adds their paths to a batch. Once the pace is over, it
+    /// stops wherever it is.
     fn walk_ants(
         &mut self,
         shared: &Self::Shared,
-        iteration: u32,
-        ants: Range<u32>,
+        ants: (u32, Range<u32>),
         batch: &mut Self::Batch,
+        pace: &mut Pace,
     );
 }
 
@@ -55,8 +95,8 @@ struct Job<W: AntWorker> {
     iteration: u32,
     ants: Range<u32>,
     batch: W::Batch,
-    /// Set where no further ants are to set out; none where all do.
-    is_over: Option<Arc<AtomicBool>>,
+    /// Set where ants are to stop.
+    is_over: Arc<AtomicBool>,
 }
 
 /// Runs `body` with a pool for `n_ants` ants on at most `n_threads` threads.
@@ -96,13 +136,9 @@ fn serve<W: AntWorker>(worker: &mut W, inbox: &Receiver<Job<W>>, outbox: &Sender
             is_over,
         } = job;
         batch.clear();
-        match is_over {
-            None => worker.walk_ants(&shared, iteration, ants, &mut batch),
-            Some(is_over) => {
-                let parts = parts(ants).take_while(|_| !is_over.load(Ordering::Relaxed));
-                parts.for_each(|part| worker.walk_ants(&shared, iteration, part, &mut batch));
-            }
-        }
+        let mut goes_on = || !is_over.load(Ordering::Relaxed);
+        let mut pace = Pace::new(W::STEPS_PER_LOOK, &mut goes_on);
+        worker.walk_ants(&shared, (iteration, ants), &mut batch, &mut pace);
         drop(shared);
         if outbox.send(batch).is_err() {
             return;
@@ -111,16 +147,9 @@ fn serve<W: AntWorker>(worker: &mut W, inbox: &Receiver<Job<W>>, outbox: &Sender
 }
 
 impl<W: AntWorker> WorkerPool<W> {
-    /// Walks all ants of an iteration, in their order.
-    pub(super) fn walk(&mut self, shared: &Arc<W::Shared>, iteration: u32, into: &mut W::Batch) {
-        let ants = self.send(shared, iteration, None);
-        into.clear();
-        self.worker.walk_ants(shared, iteration, ants, into);
-        self.collect(into);
-    }
-
-    /// The same, but every few ants `goes_on` is asked whether others should set out. Where it says
-    /// no, what is in the batch is a part of the iteration and of no use.
+    /// Walks all ants of an iteration, in their order. Every few steps `goes_on` is asked whether
+    /// they are to go on. Where it says no, what is in the batch is a part of the iteration and of
+    /// no use.
     pub(super) fn walk_while(
         &mut self,
         shared: &Arc<W::Shared>,
@@ -129,16 +158,17 @@ impl<W: AntWorker> WorkerPool<W> {
         goes_on: &mut dyn FnMut() -> bool,
     ) {
         let is_over = Arc::new(AtomicBool::new(false));
-        let ants = self.send(shared, iteration, Some(&is_over));
+        let ants = self.send(shared, iteration, &is_over);
         into.clear();
-        for part in parts(ants) {
-            self.worker.walk_ants(shared, iteration, part, into);
-            if !goes_on() {
-                is_over.store(true, Ordering::Relaxed);
-                break;
-            }
-        }
-        self.collect(into);
+        let mut goes_on = || {
+            let goes_on = goes_on();
+            is_over.store(!goes_on, Ordering::Relaxed);
+            goes_on
+        };
+        let mut pace = Pace::new(W::STEPS_PER_LOOK, &mut goes_on);
+        self.worker
+            .walk_ants(shared, (iteration, ants), into, &mut pace);
+        self.collect(into, &mut goes_on);
     }
 
     /// Gives each thread its ants, and returns those of the caller's thread.
@@ -146,7 +176,7 @@ impl<W: AntWorker> WorkerPool<W> {
         &mut self,
         shared: &Arc<W::Shared>,
         iteration: u32,
-        is_over: Option<&Arc<AtomicBool>>,
+        is_over: &Arc<AtomicBool>,
     ) -> Range<u32> {
         let n_batches = self.threads.len() as u32 + 1;
         let ants = |i: u32| {
@@ -160,7 +190,7 @@ impl<W: AntWorker> WorkerPool<W> {
                 iteration,
                 ants: ants(i as u32 + 1),
                 batch: W::Batch::default(),
-                is_over: is_over.cloned(),
+                is_over: Arc::clone(is_over),
             };
             thread.jobs.send(job).expect("threads wait for jobs");
         }
@@ -168,18 +198,17 @@ impl<W: AntWorker> WorkerPool<W> {
     }
 
     /// Appends what the threads have walked.
-    fn collect(&mut self, into: &mut W::Batch) {
+    fn collect(&mut self, into: &mut W::Batch, goes_on: &mut dyn FnMut() -> bool) {
         for thread in &self.threads {
-            into.append(&thread.batches.recv().expect("threads answer every job"));
+            let batch = loop {
+                match thread.batches.recv_timeout(WAIT) {
+                    Err(RecvTimeoutError::Timeout) => drop(goes_on()),
+                    answer => break answer.expect("threads answer every job"),
+                }
+            };
+            into.append(&batch);
         }
     }
-}
-
-/// Ranges of a few ants each.
-fn parts(ants: Range<u32>) -> impl Iterator<Item = Range<u32>> {
-    let end = ants.end;
-    let begins = ants.step_by(N_ANTS_PER_LOOK as usize);
-    begins.map(move |begin| begin..end.min(begin + N_ANTS_PER_LOOK))
 }
 
 #[cfg(test)]
@@ -203,8 +232,16 @@ mod tests {
         type Shared = ();
         type Batch = Vec<u32>;
 
-        fn walk_ants(&mut self, (): &(), _: u32, ants: Range<u32>, batch: &mut Vec<u32>) {
-            batch.extend(ants);
+        const STEPS_PER_LOOK: u32 = 8;
+
+        fn walk_ants(
+            &mut self,
+            (): &(),
+            (_, ants): (u32, Range<u32>),
+            batch: &mut Vec<u32>,
+            pace: &mut Pace,
+        ) {
+            batch.extend(ants.take_while(|_| pace.step()));
         }
     }
 
@@ -221,8 +258,8 @@ mod tests {
                     assert!(walked.iter().copied().eq(0..50));
                     pool.walk_while(&shared, 1, &mut walked, &mut || false);
                     // The caller's thread has walked a part of its own ants.
-                    assert!(walked.starts_with(&[0, 1, 2, 3, 4, 5, 6, 7]) && walked.len() < 50);
-                    pool.walk(&shared, 2, &mut walked);
+                    assert!(walked.starts_with(&[0, 1, 2, 3, 4, 5, 6]) && walked.len() < 50);
+                    pool.walk_while(&shared, 2, &mut walked, &mut || true);
                     assert!(walked.iter().copied().eq(0..50));
                 },
             );

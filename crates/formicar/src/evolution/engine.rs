@@ -28,7 +28,7 @@ pub struct EvolutionRun {
 /// Breeds polylines.
 ///
 /// Same problem, configuration and seed: same run, to the last bit. A step of the limits is the
-/// evaluation of an individual; deadline and cancel are looked at between generations.
+/// evaluation of an individual; deadline and cancel are looked at before each.
 ///
 /// # Errors
 /// A parameter out of its range.
@@ -39,10 +39,21 @@ pub fn run(
     limits: &mut Limits,
 ) -> Result<EvolutionRun, OutOfRange> {
     config.check()?;
+    let (blocked, rule) = (problem.blocked(), problem.rule());
+    let goes_on = &mut || limits.look().is_ok();
+    let reachable = ReachableCells::new(blocked, rule, problem.start, goes_on);
+    if let Err(status) = limits.look() {
+        return Ok(EvolutionRun {
+            best: None,
+            history: History::default(),
+            stop: Stop::of_limit(status),
+            least_obstructed_m: f64::INFINITY,
+        });
+    }
     let mut evolution = Evolution {
         config,
         seed,
-        reachable: ReachableCells::new(problem.blocked(), problem.rule(), problem.start),
+        reachable,
         evaluation: Evaluation::new(problem, config),
         population: Population::default(),
         best: None,
@@ -101,7 +112,9 @@ impl Evolution<'_> {
         let is_cut = n_evaluated < born.len();
         if n_evaluated > 0 {
             born.truncate(n_evaluated);
-            self.take_over(born)?;
+            if let Some(stop) = self.take_over(born, limits)? {
+                return Ok(Some(stop));
+            }
             self.remember();
             self.report(generation, limits);
         }
@@ -133,18 +146,26 @@ impl Evolution<'_> {
         (config.n_elite..config.n_individuals).map(child).collect()
     }
 
-    /// Keeps the elite, and replaces the others by the new individuals after scoring these.
-    fn take_over(&mut self, born: Vec<Vec<Cell>>) -> Result<(), OutOfRange> {
+    /// Keeps the elite, and replaces the others by the new individuals after scoring these; returns
+    /// why it stopped before, if it did.
+    fn take_over(
+        &mut self,
+        born: Vec<Vec<Cell>>,
+        limits: &mut Limits,
+    ) -> Result<Option<Stop>, OutOfRange> {
         let old = std::mem::take(&mut self.population);
         for survivor in elite(&old.scores, self.config.n_elite as usize) {
             self.population.lines.push(old.lines[survivor].clone());
             self.population.scores.push(old.scores[survivor]);
         }
         for line in born {
+            if let Err(status) = limits.look() {
+                return Ok(Some(Stop::of_limit(status)));
+            }
             self.population.scores.push(self.evaluation.score(&line)?);
             self.population.lines.push(line);
         }
-        Ok(())
+        Ok(None)
     }
 
     fn remember(&mut self) {

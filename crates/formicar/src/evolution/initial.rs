@@ -149,7 +149,12 @@ mod tests {
 
     fn first(config: &EvolutionConfig, (moves, path): &(MoveMasks, GridSearch)) -> Vec<Vec<Cell>> {
         let problem = EvolutionProblem::new(moves, path, 0.2, [2.0, 0.7]).unwrap();
-        let reachable = ReachableCells::new(problem.blocked(), problem.rule(), problem.start);
+        let reachable = ReachableCells::new(
+            problem.blocked(),
+            problem.rule(),
+            problem.start,
+            &mut || true,
+        );
         first_population(&problem, config, &reachable, Seed(1))
     }
 

@@ -95,8 +95,12 @@ mod tests {
             mutation,
             ..EvolutionConfig::ga()
         };
-        let reachable =
-            ReachableCells::new(&BitGrid::new(40, 20), DiagonalRule::NoObstacles, line[0]);
+        let reachable = ReachableCells::new(
+            &BitGrid::new(40, 20),
+            DiagonalRule::NoObstacles,
+            line[0],
+            &mut || true,
+        );
         let mut line = line.to_vec();
         mutate(
             &mut line,

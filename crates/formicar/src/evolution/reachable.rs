@@ -17,11 +17,20 @@ pub(super) struct ReachableCells {
 
 impl ReachableCells {
     /// The cells that can be reached from a start that is not blocked.
-    pub(super) fn new(blocked: &BitGrid, rule: DiagonalRule, start: Cell) -> Self {
-        let components = Components::new(blocked, rule.connectivity());
+    /// `goes_on` is asked on the way whether to go on; where it says no, they are of no use.
+    pub(super) fn new(
+        blocked: &BitGrid,
+        rule: DiagonalRule,
+        start: Cell,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Self {
+        let components = Components::new_while(blocked, rule.connectivity(), goes_on);
         let mut reachable = blocked.complement();
         if components.n_components() > 1 {
             for row in 0..blocked.n_rows() {
+                if !goes_on() {
+                    break;
+                }
                 let cells = (0..blocked.n_cols()).map(|col| Cell::new(col as u32, row as u32));
                 let strays = cells.filter(|&cell| !components.same(cell, start));
                 reachable.remove_all(strays);
@@ -103,7 +112,8 @@ mod tests {
         let rows = ["..#..", ".##..", "...#.", "##..#", "..#.."];
         let blocked = OccupancyGrid::from_rows(&rows, 1.0).unwrap().lethal_cells();
         let start = Cell::new(0, 4);
-        let reachable = ReachableCells::new(&blocked, DiagonalRule::NoObstacles, start);
+        let reachable =
+            ReachableCells::new(&blocked, DiagonalRule::NoObstacles, start, &mut || true);
         let mut random = Seed(1).stream([0, 0]);
         let pair = |cell: Cell| (cell.col, cell.row);
         let drawn: BTreeSet<_> = (0..2_000)

@@ -55,6 +55,17 @@ impl Layers {
         rule: DiagonalRule,
         vehicle_width_cells: f64,
     ) -> Self {
+        let ground = (obstacles, vehicle_width_cells);
+        Self::new_while(ground, config, (ends, rule), &mut || true)
+    }
+
+    /// The same, where `goes_on` is asked on the way whether to go on; of no use where it said no.
+    pub(crate) fn new_while(
+        (obstacles, vehicle_width_cells): (&BitGrid, f64),
+        config: &LayersConfig,
+        (ends, rule): (&[Cell], DiagonalRule),
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Self {
         let n_cells = config.expansion.n_cells(vehicle_width_cells);
         let expanded = obstacle_expansion(obstacles, n_cells);
         let mut blocked = obstacles.clone();
@@ -66,8 +77,8 @@ impl Layers {
             blocked,
             pockets: Vec::new(),
         };
-        if config.u_shapes == UShapes::Close {
-            layers.close_u_shapes(ends, rule);
+        if config.u_shapes == UShapes::Close && goes_on() {
+            layers.close_u_shapes(ends, rule, goes_on);
         }
         layers
     }
@@ -90,12 +101,17 @@ impl Layers {
             .count()
     }
 
-    fn close_u_shapes(&mut self, ends: &[Cell], rule: DiagonalRule) {
+    fn close_u_shapes(
+        &mut self,
+        ends: &[Cell],
+        rule: DiagonalRule,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) {
         let ends = ends.iter();
         let ends: Vec<Cell> = ends
             .filter_map(|&end| self.nearest_open(end, MAX_RADIUS))
             .collect();
-        (self.closed, self.pockets) = u_shapes::close_u_shapes(&self.blocked, &ends, rule);
+        (self.closed, self.pockets) = u_shapes::close_u_shapes(&self.blocked, &ends, rule, goes_on);
         self.blocked.unite(&self.closed);
     }
 }

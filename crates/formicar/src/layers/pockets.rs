@@ -38,12 +38,16 @@ impl Pockets {
     /// Looks at every 8-connected obstacle: its pockets are the 4-connected free cells whose
     /// centers lie in the convex hull of its cell centers.
     ///
-    /// Cost is proportional to the cells of the map and of the boxes around its obstacles.
-    pub(super) fn find(blocked: &BitGrid) -> Self {
+    /// Cost is proportional to the cells of the map and of the boxes around its obstacles. Every
+    /// obstacle `goes_on` is asked whether to go on.
+    pub(super) fn find(blocked: &BitGrid, goes_on: &mut dyn FnMut() -> bool) -> Self {
         let obstacles = Components::new(&blocked.complement(), Connectivity::Eight);
         let outlines = Outlines::new(blocked, &obstacles);
         let mut pockets = Self::default();
         for (label, &n_cells) in obstacles.sizes().iter().enumerate() {
+            if !goes_on() {
+                break;
+            }
             let hull = hull_spans(outlines.of(label));
             let n_in_hull: usize = hull.iter().map(|span| span.n_cells()).sum();
             if n_in_hull > n_cells as usize {
@@ -198,7 +202,7 @@ mod tests {
     fn pockets(rows: &[&str]) -> Vec<String> {
         let map = OccupancyGrid::from_rows(rows, 1.0).unwrap();
         let mut drawn: Vec<Vec<char>> = rows.iter().map(|row| row.chars().collect()).collect();
-        let found = Pockets::find(&map.lethal_cells());
+        let found = Pockets::find(&map.lethal_cells(), &mut || true);
         for (pocket, letter) in found.largest_first().zip('a'..) {
             for cell in pocket.into_iter().flat_map(Run::cells) {
                 drawn[rows.len() - 1 - cell.row as usize][cell.col as usize] = letter;
@@ -246,7 +250,9 @@ mod tests {
         for (col, row) in [(70, 2), (250, 2), (250, 3), (70, 3)] {
             blocked.insert(Cell::new(col, row));
         }
-        let found: Vec<_> = Pockets::find(&blocked).largest_first().collect();
+        let found: Vec<_> = Pockets::find(&blocked, &mut || true)
+            .largest_first()
+            .collect();
         let run = |row| Run {
             row,
             first: 71,

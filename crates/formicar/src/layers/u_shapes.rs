@@ -20,16 +20,21 @@ pub struct Pocket {
 
 /// Closes pockets, the largest first; returns the closed cells and all pockets.
 ///
-/// No distance between cells outside of pockets changes. The ends are open cells.
+/// No distance between cells outside of pockets changes. The ends are open cells. Every pocket
+/// `goes_on` is asked whether to go on; where not, the result is of no use.
 pub(super) fn close_u_shapes(
     blocked: &BitGrid,
     ends: &[Cell],
     rule: DiagonalRule,
+    goes_on: &mut dyn FnMut() -> bool,
 ) -> (BitGrid, Vec<Pocket>) {
     let mut closing = Closing::new(blocked, rule);
     let mut closed = BitGrid::new(blocked.n_cols(), blocked.n_rows());
     let mut record = Vec::new();
-    for runs in Pockets::find(blocked).largest_first() {
+    for runs in Pockets::find(blocked, goes_on).largest_first() {
+        if !goes_on() {
+            break;
+        }
         // None if all of it was closed with larger ones.
         let Some(pocket) = OpenPocket::new(&runs, closing.blocked()) else {
             continue;
@@ -73,7 +78,8 @@ mod tests {
             let cells = cells.filter(|(c, _)| *c == wanted);
             cells.map(|(_, (x, y))| Cell::new(x, y)).collect()
         };
-        let (closed, pockets) = close_u_shapes(&map.lethal_cells(), &drawn('o'), rule);
+        let (closed, pockets) =
+            close_u_shapes(&map.lethal_cells(), &drawn('o'), rule, &mut || true);
         assert_eq!(closed.iter().collect::<Vec<_>>(), drawn('x'), "{rule:?}");
         pockets.iter().map(|pocket| pocket.fate).collect()
     }
@@ -220,7 +226,7 @@ mod tests {
             let free: Vec<Cell> = blocked.complement().iter().collect();
             prop_assume!(!free.is_empty());
             let [start, goal] = ends.map(|end| free[end.index(free.len())]);
-            let (closed, pockets) = close_u_shapes(&blocked, &[start, goal], rule);
+            let (closed, pockets) = close_u_shapes(&blocked, &[start, goal], rule, &mut || true);
             let n_closed: usize = pockets.iter().map(|pocket| pocket.n_closed).sum();
             prop_assert_eq!(closed.count(), n_closed);
 
@@ -229,7 +235,7 @@ mod tests {
             prop_assert_eq!(after.count(), blocked.count() + n_closed);
             let (before, after) = (costs_from(start, &blocked, rule), costs_from(start, &after, rule));
             let mut in_pocket = BitGrid::new(n_cols, blocked.n_rows());
-            let runs = Pockets::find(&blocked).largest_first().flatten();
+            let runs = Pockets::find(&blocked, &mut || true).largest_first().flatten();
             in_pocket.extend(runs.flat_map(Run::cells));
             in_pocket.remove(goal);
             for cell in in_pocket.complement().iter() {

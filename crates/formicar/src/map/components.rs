@@ -25,6 +25,10 @@ pub struct Components {
 /// Label of a blocked cell.
 const BLOCKED: u32 = u32::MAX;
 
+/// Rows, and runs, between two questions whether to go on.
+const ROWS_PER_LOOK: usize = 64;
+const RUNS_PER_LOOK: usize = 1024;
+
 /// Free cells of a row from column `first` up to, but not including, `end`.
 #[derive(Clone, Copy)]
 struct Run {
@@ -37,9 +41,21 @@ impl Components {
     /// Labels the cells that are not blocked: runs of each row, joined with those of the row below
     /// in a forest of disjoint sets.
     pub fn new(blocked: &BitGrid, connectivity: Connectivity) -> Self {
-        let (runs, row_starts) = free_runs(blocked);
+        Self::new_while(blocked, connectivity, &mut || true)
+    }
+
+    /// The same, where `goes_on` is asked on the way whether to go on; of no use where it said no.
+    pub(crate) fn new_while(
+        blocked: &BitGrid,
+        connectivity: Connectivity,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Self {
+        let (runs, row_starts) = free_runs(blocked, goes_on);
         let mut sets: Vec<u32> = (0..runs.len() as u32).collect();
-        for rows in row_starts.windows(3) {
+        for (i, rows) in row_starts.windows(3).enumerate() {
+            if i.is_multiple_of(ROWS_PER_LOOK) && !goes_on() {
+                break;
+            }
             let (below, above) = (rows[0]..rows[1], rows[1]..rows[2]);
             join_rows(&runs, &mut sets, (below, above), connectivity);
         }
@@ -48,7 +64,7 @@ impl Components {
             labels: vec![BLOCKED; blocked.n_cols() * blocked.n_rows()],
             sizes: Vec::new(),
         };
-        components.label_runs(&runs, &mut sets);
+        components.label_runs(&runs, &mut sets, goes_on);
         components
     }
 
@@ -81,9 +97,12 @@ impl Components {
     }
 
     /// Numbers the sets of runs and writes the numbers to the cells.
-    fn label_runs(&mut self, runs: &[Run], sets: &mut [u32]) {
+    fn label_runs(&mut self, runs: &[Run], sets: &mut [u32], goes_on: &mut dyn FnMut() -> bool) {
         let mut label_of_root = vec![BLOCKED; runs.len()];
         for (i, run) in runs.iter().enumerate() {
+            if i.is_multiple_of(RUNS_PER_LOOK) && !goes_on() {
+                return;
+            }
             let root = find(sets, i as u32) as usize;
             if label_of_root[root] == BLOCKED {
                 label_of_root[root] = self.sizes.len() as u32;
@@ -97,10 +116,13 @@ impl Components {
 }
 
 /// All runs row by row, and where each row's runs start, with the end of the last.
-fn free_runs(blocked: &BitGrid) -> (Vec<Run>, Vec<usize>) {
+fn free_runs(blocked: &BitGrid, goes_on: &mut dyn FnMut() -> bool) -> (Vec<Run>, Vec<usize>) {
     let mut runs = Vec::new();
     let mut row_starts = vec![0];
     for row in 0..blocked.n_rows() {
+        if row.is_multiple_of(ROWS_PER_LOOK) && !goes_on() {
+            break;
+        }
         runs.extend(blocked.gaps(row).map(|gap| Run {
             row,
             first: gap.start,

@@ -20,9 +20,21 @@ pub struct ClearanceSummary {
 impl ClearanceSummary {
     /// Most that two samples of the mean lie apart.
     const SPACING_M: f64 = 0.05;
+    /// Samples between two questions whether to go on.
+    const SAMPLES_PER_LOOK: usize = 64;
 
     /// The judge's least clearance with a mean sampled at most 0.05 m apart, never below it.
     pub fn new(obstacles: &ObstacleMap, vehicle: &Vehicle, path: &CurvePath, min_m: f64) -> Self {
+        Self::new_while((obstacles, vehicle), path, min_m, &mut || true)
+    }
+
+    /// The same, where `goes_on` is asked on the way whether to go on; of no use where it said no.
+    pub(crate) fn new_while(
+        (obstacles, vehicle): (&ObstacleMap, &Vehicle),
+        path: &CurvePath,
+        min_m: f64,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Self {
         let body = Body::new(vehicle);
         let clearance = |pose: Pose2, limit_m: f64| {
             let here = Drive::at(obstacles.frame().to_grid(pose));
@@ -41,7 +53,9 @@ impl ClearanceSummary {
             // Mid points of equal steps: each stands for as much arc length as any other.
             let n_steps = (segment.length_m / Self::SPACING_M).ceil().max(1.0);
             let step_m = segment.length_m / n_steps;
-            let at_steps = (0..n_steps as usize).map(|i| {
+            let at_steps = (0..n_steps as usize)
+                .take_while(|i| !i.is_multiple_of(Self::SAMPLES_PER_LOOK) || goes_on());
+            let at_steps = at_steps.map(|i| {
                 let pose = segment.pose_at((i as f64 + 0.5) * step_m);
                 last_m = clearance(pose, last_m + lever * Self::SPACING_M);
                 last_m

@@ -3,8 +3,9 @@
 use super::{Ended, Found, Stages, Task};
 use crate::map::{BitGrid, DiagonalRule, MoveMasks};
 use crate::path::GridPath;
-use crate::progress::Status;
-use crate::smoothing::{SmoothingConfig, SmoothingProblem, smooth};
+use crate::progress::{Limits, Status};
+use crate::smoothing::{SmoothingConfig, SmoothingProblem, smooth_while};
+use std::cell::RefCell;
 
 /// A path over cells, with the ground on which it was found and by whom.
 pub(super) struct CellPath<'a> {
@@ -44,6 +45,7 @@ impl<'a> CellPath<'a> {
         task: &Task,
         smoothing: &SmoothingConfig,
         mut stages: Stages,
+        limits: &mut Limits,
     ) -> Result<Found, Ended> {
         let problem = SmoothingProblem {
             obstacles: task.obstacles(),
@@ -54,8 +56,13 @@ impl<'a> CellPath<'a> {
         let nodes = smoothing
             .redundant_nodes
             .apply(self.blocked, self.rule, self.path);
-        let smoothed = smooth(&problem, smoothing, task.request(), &nodes);
+        let shared = RefCell::new(&mut *limits);
+        let goes_on = || shared.borrow_mut().look().is_ok();
+        let smoothed = smooth_while(&problem, (smoothing, task.request()), &nodes, &goes_on);
         stages.nodes = nodes;
+        if let Err(status) = limits.look() {
+            return Err(Ended::new(status, stages));
+        }
         match smoothed {
             Ok(smoothed) => {
                 stages.corners = smoothed.corners;

@@ -4,6 +4,7 @@
 use super::door::AxleGround;
 use crate::collision::ObstacleMap;
 use crate::map::{BitGrid, CellRegion, DiagonalRule, MapError, MoveMasks, regrow};
+use crate::progress::{Limits, Status};
 use crate::search::{AstarWorkspace, DrivableMap, DrivableMapParts, HybridAstarConfig};
 use crate::vehicle::{Motion, Vehicle, VehicleError};
 use std::sync::Arc;
@@ -57,12 +58,15 @@ impl PreparedMap {
     }
 
     /// The connected parts for the rear axle, labeled once.
-    pub(super) fn axle_ground(&mut self) -> Arc<AxleGround> {
+    ///
+    /// # Errors
+    /// Deadline or cancel.
+    pub(super) fn axle_ground(&mut self, limits: &mut Limits) -> Result<Arc<AxleGround>, Status> {
         if let Some(ground) = &self.axle {
-            return ground.clone();
+            return Ok(ground.clone());
         }
-        let ground = Arc::new(AxleGround::new(&self.obstacles, &self.vehicle));
-        self.axle.insert(ground).clone()
+        let ground = AxleGround::new(&self.obstacles, &self.vehicle, limits)?;
+        Ok(self.axle.insert(Arc::new(ground)).clone())
     }
 
     /// Takes what searches over cells reuse; [`Self::keep_cells`] puts it back.

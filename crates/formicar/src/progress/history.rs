@@ -47,6 +47,15 @@ pub enum Stop {
 }
 
 impl Stop {
+    /// The limits within which the path of a run that has stopped is made drivable: at a deadline it
+    /// is still worth it.
+    pub(crate) fn limits_after<'a>(self, limits: &'a mut Limits<'_>) -> Limits<'a> {
+        match self {
+            Self::Deadline => limits.without_deadline(),
+            _ => limits.without_budget(),
+        }
+    }
+
     /// The word used in files.
     pub fn name(self) -> &'static str {
         match self {

@@ -4,6 +4,9 @@ use super::{Event, Observer, Status};
 use crate::path::CurvePath;
 use std::time::Duration;
 
+/// The last path is judged and measured in this many times as long as one is judged.
+const JUDGEMENTS_KEPT: u32 = 3;
+
 /// Counts steps against a budget and, every few hundred steps, looks at the clock and the cancel
 /// flag of the observer.
 ///
@@ -19,6 +22,8 @@ pub struct Limits<'a> {
     observer: &'a mut dyn Observer,
     budget_steps: Option<u64>,
     deadline: Option<Duration>,
+    /// Time before the deadline that is kept for the last judgement of a path.
+    kept: Duration,
     n_steps: u64,
     /// Length of the path that was reported last.
     reported_m: Option<f64>,
@@ -40,6 +45,7 @@ impl<'a> Limits<'a> {
             observer,
             budget_steps,
             deadline,
+            kept: Duration::ZERO,
             n_steps: 0,
             reported_m: None,
             hides_paths: false,
@@ -59,6 +65,15 @@ impl<'a> Limits<'a> {
             return self.look();
         }
         Ok(())
+    }
+
+    /// Counts a step that takes much longer than one of a search over cells, and looks.
+    ///
+    /// # Errors
+    /// As [`Self::step`].
+    pub fn long_step(&mut self) -> Result<(), Status> {
+        self.step()?;
+        self.look()
     }
 
     /// Counts as many of `n_wanted` steps as the budget still allows, and returns their number.
@@ -84,7 +99,12 @@ impl<'a> Limits<'a> {
         if self.observer.is_cancelled() {
             return Err(Status::Cancelled);
         }
-        let late = |deadline| self.observer.elapsed().is_some_and(|now| now >= deadline);
+        let kept = self.kept;
+        let late = |deadline| {
+            self.observer
+                .elapsed()
+                .is_some_and(|now| now + kept >= deadline)
+        };
         if self.deadline.is_some_and(late) {
             return Err(Status::TimedOut);
         }
@@ -92,6 +112,25 @@ impl<'a> Limits<'a> {
             n_steps: self.n_steps,
         });
         Ok(())
+    }
+
+    /// Judges a path, and keeps as much time before the deadline as judging and measuring the last
+    /// one will take, at most a tenth of the whole.
+    pub(crate) fn keeping_time<T>(&mut self, judge: impl FnOnce(&mut Self) -> T) -> T {
+        let Some(deadline) = self.deadline else {
+            return judge(self);
+        };
+        let begun = self.observer.elapsed();
+        let result = judge(self);
+        let time = self.observer.elapsed().zip(begun);
+        let taken = time.map_or(Duration::ZERO, |(now, begun)| now.saturating_sub(begun));
+        self.kept = self.kept.max(JUDGEMENTS_KEPT * taken).min(deadline / 10);
+        result
+    }
+
+    /// True once the query is cancelled.
+    pub(crate) fn is_cancelled(&mut self) -> bool {
+        self.observer.is_cancelled()
     }
 
     /// Does a part of the work with at most `n_more` further steps, within the same budget.
@@ -117,6 +156,7 @@ impl<'a> Limits<'a> {
             observer: &mut *self.observer,
             budget_steps: None,
             deadline: self.deadline,
+            kept: self.kept,
             n_steps: 0,
             reported_m: self.reported_m,
             hides_paths: self.hides_paths,
@@ -128,6 +168,16 @@ impl<'a> Limits<'a> {
     pub fn aside(&mut self) -> Limits<'_> {
         Limits {
             n_steps: 1,
+            ..self.without_budget()
+        }
+    }
+
+    /// The cancel flag alone, for what is still worth doing after the deadline.
+    pub(crate) fn without_deadline(&mut self) -> Limits<'_> {
+        let n_steps = self.n_steps;
+        Limits {
+            deadline: None,
+            n_steps,
             ..self.without_budget()
         }
     }

@@ -32,7 +32,7 @@ pub trait Observer {
         None
     }
 
-    /// True once the query is to stop.
+    /// True once the query is to stop, and from then on.
     fn is_cancelled(&mut self) -> bool {
         false
     }
@@ -110,7 +110,8 @@ pub enum Event<'a> {
     MapReady,
     /// The fields of the query are ready and the search begins.
     SearchStarted,
-    /// The number of search steps so far, every few hundred steps.
+    /// The number of search steps so far, every few hundred steps or less, and while a query is
+    /// prepared.
     Progress {
         /// Steps so far.
         n_steps: u64,

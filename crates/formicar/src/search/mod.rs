@@ -25,5 +25,5 @@ pub use grid_search::{GridSearch, SearchError};
 pub use guide_field::GuideField;
 pub use hybrid_astar::{HybridSearch, Stage, hybrid_astar};
 pub use improved_astar::{ImprovedAstarConfig, improved_astar};
-pub(crate) use passage::widest_way_out;
 pub use passage::{Passage, widest_passage};
+pub(crate) use passage::{widest_passage_while, widest_way_out};

@@ -30,15 +30,24 @@ impl Passage {
 /// The way between two cells whose least distance from obstacles is largest; none where obstacles
 /// separate them. Ways step to all eight neighbors, never between two obstacles.
 pub fn widest_passage(distance: &DistanceField, from: Cell, to: Cell) -> Option<Passage> {
+    widest_passage_while(distance, [from, to], &mut || true)
+}
+
+/// The same, where `goes_on` is asked on the way whether to go on; none where it said no.
+pub(crate) fn widest_passage_while(
+    distance: &DistanceField,
+    [from, to]: [Cell; 2],
+    goes_on: &mut dyn FnMut() -> bool,
+) -> Option<Passage> {
     if !is_on(distance, to) {
         return None;
     }
     let goal = to.row as usize * distance.n_cols() + to.col as usize;
-    widest_way_out(distance, from, |index| index == goal)
+    widest_way_out(distance, from, |index| index == goal, goes_on)
 }
 
 /// The same to the first cell that `is_there` accepts, given its place row by row, where all such
-/// cells lie wider than the narrowest place on the way to them.
+/// cells lie wider than the narrowest place on the way to them; none where `goes_on` says no.
 ///
 /// Cost is proportional to the cells visited, but for clearing five bytes per cell: a search by
 /// falling distance, with one stack per squared distance, all in one list.
@@ -46,6 +55,7 @@ pub(crate) fn widest_way_out(
     distance: &DistanceField,
     from: Cell,
     is_there: impl Fn(usize) -> bool,
+    goes_on: &mut dyn FnMut() -> bool,
 ) -> Option<Passage> {
     if !is_on(distance, from) {
         return None;
@@ -58,11 +68,16 @@ pub(crate) fn widest_way_out(
     let mut stacks = Stacks::new(clear.len(), level);
     came_by[start] = FIRST;
     stacks.push(level, start);
+    let mut n_popped = 0_usize;
     while level > 0 {
         let Some(index) = stacks.pop(level) else {
             level -= 1;
             continue;
         };
+        n_popped += 1;
+        if n_popped.is_multiple_of(CELLS_PER_LOOK) && !goes_on() {
+            return None;
+        }
         if is_there(index) {
             return Some(trace(distance, &came_by, start, index));
         }
@@ -87,6 +102,8 @@ pub(crate) fn widest_way_out(
     None
 }
 
+/// Cells visited between two questions whether to go on.
+const CELLS_PER_LOOK: usize = 1024;
 /// A cell that nothing has reached.
 const UNSEEN: u8 = u8::MAX;
 /// The first cell, which no step has reached.

@@ -54,6 +54,9 @@ pub enum SmoothingError {
     /// Start and goal are the same place, where the body does not fit.
     #[error("the body does not fit at the start, which is the goal")]
     NoRoom,
+    /// The caller ended it: deadline or cancel.
+    #[error("smoothing was stopped")]
+    Stopped,
 }
 
 /// The reason why no 2-turning rounds a corner.

@@ -30,5 +30,6 @@ pub use improve::{ImproveConfig, ImproveProblem, Improved, Improver};
 pub use problem::SmoothingProblem;
 pub use redundant_nodes::{RedundantNodes, remove_redundant_nodes};
 pub use smooth::smooth;
+pub(crate) use smooth::smooth_while;
 pub use smoothed::{CornerRecord, Rounding, Smoothed};
 pub use two_turning::{TurnOrder, TwoTurning};

@@ -38,6 +38,19 @@ pub fn smooth(
     request: &Request,
     nodes: &[Cell],
 ) -> Result<Smoothed, SmoothingError> {
+    smooth_while(problem, (config, request), nodes, &|| true)
+}
+
+/// The same, where `goes_on` is asked every some ten microseconds whether to go on.
+///
+/// # Errors
+/// As [`smooth`]; [`SmoothingError::Stopped`] where it said no.
+pub(crate) fn smooth_while(
+    problem: &SmoothingProblem,
+    (config, request): (&SmoothingConfig, &Request),
+    nodes: &[Cell],
+    goes_on: &dyn Fn() -> bool,
+) -> Result<Smoothed, SmoothingError> {
     config.check()?;
     if nodes.is_empty() {
         return Err(SmoothingError::NoNodes);
@@ -66,17 +79,26 @@ pub fn smooth(
         config,
         gears: request.gears,
         ends: &ends,
+        goes_on,
     };
     if config.corners == Corners::WideArcs
         && let Some(way) = widest(&task, &points)
     {
         return Ok(by_wide_arcs(problem, request, &way));
     }
+    if task.is_over() {
+        return Err(SmoothingError::Stopped);
+    }
     let map = Roadmap::new(Polyline::new(points), config, task.radius_m);
     let pieces = if map.line.legs.is_empty() && (ends.start_is_free || ends.goal_is_free) {
         vec![standing(&task, request)?]
     } else {
-        cheapest(&task, &map).map_err(|stuck| explain(&task, &map, &stuck))?
+        cheapest(&task, &map).map_err(|stuck| {
+            if task.is_over() {
+                return SmoothingError::Stopped;
+            }
+            explain(&task, &map, &stuck)
+        })?
     };
     Ok(assembled(problem, request, &map, &pieces))
 }

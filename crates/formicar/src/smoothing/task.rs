@@ -33,9 +33,16 @@ pub(super) struct RoundingTask<'a> {
     pub(super) cost: &'a VehicleCost,
     pub(super) gears: Gears,
     pub(super) ends: &'a Ends,
+    /// Whether to go on; where not, results are of no use.
+    pub(super) goes_on: &'a dyn Fn() -> bool,
 }
 
 impl RoundingTask<'_> {
+    /// True once the result is of no use any more.
+    pub(super) fn is_over(&self) -> bool {
+        !(self.goes_on)()
+    }
+
     /// The longest stretch of the polyline that one curve replaces, meters.
     pub(super) fn reach_m(&self) -> f64 {
         self.config.reach_radii * self.radius_m

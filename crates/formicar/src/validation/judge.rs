@@ -16,13 +16,24 @@ pub fn judge(
     request: &Request,
     path: &CurvePath,
 ) -> Report {
-    let mut report = judge_path(obstacles, vehicle, path, CURVATURE_TOLERANCE);
+    let body = (obstacles, vehicle);
+    judge_while(body, request, path, &mut || true).expect("nothing ends it")
+}
+
+/// The same, where `goes_on` is asked on the way whether to go on; no verdict where it said no.
+pub(crate) fn judge_while(
+    (obstacles, vehicle): (&ObstacleMap, &Vehicle),
+    request: &Request,
+    path: &CurvePath,
+    goes_on: &mut dyn FnMut() -> bool,
+) -> Option<Report> {
+    let mut report = judge_path_while((obstacles, vehicle), path, CURVATURE_TOLERANCE, goes_on)?;
     if report
         .violations
         .iter()
         .any(|v| v.kind == ViolationKind::Malformed)
     {
-        return report;
+        return Some(report);
     }
     let ends = ends::check(vehicle, request, path);
     let passed = via::check(vehicle, request, path);
@@ -32,7 +43,7 @@ pub fn judge(
     report.via_s_m = passed.s_m;
     let violations = ends.violations.into_iter().chain(passed.missed);
     let violations = violations.chain(continuity::violations(vehicle, request, path));
-    finish(report, violations.collect())
+    Some(finish(report, violations.collect()))
 }
 
 /// Judges a path by itself: swept collision, border, curvature and joints, with a relative slack
@@ -58,12 +69,22 @@ pub fn judge_path(
     path: &CurvePath,
     curvature_slack: f64,
 ) -> Report {
+    let body = (obstacles, vehicle);
+    judge_path_while(body, path, curvature_slack, &mut || true).expect("nothing ends it")
+}
+
+fn judge_path_while(
+    (obstacles, vehicle): (&ObstacleMap, &Vehicle),
+    path: &CurvePath,
+    curvature_slack: f64,
+    goes_on: &mut dyn FnMut() -> bool,
+) -> Option<Report> {
     let report = blank(obstacles, vehicle, path);
     let malformed = shape::malformed(path);
     if !malformed.is_empty() {
-        return finish(report, malformed);
+        return Some(finish(report, malformed));
     }
-    let swept = swept::check(obstacles, vehicle, path);
+    let swept = swept::check(obstacles, vehicle, path, goes_on)?;
     let report = Report {
         min_clearance_m: swept.min_clearance_m,
         tightest: swept.tightest,
@@ -75,7 +96,7 @@ pub fn judge_path(
     };
     let mut violations = shape::check(vehicle, path, curvature_slack);
     violations.extend(swept.violations);
-    finish(report, violations)
+    Some(finish(report, violations))
 }
 
 fn blank(obstacles: &ObstacleMap, vehicle: &Vehicle, path: &CurvePath) -> Report {

@@ -27,6 +27,7 @@ mod via;
 pub use ends::missed_start;
 pub use foreign::{FOREIGN_CURVATURE_SLACK, path_through_points, path_through_poses};
 pub use foreign_path::ForeignPath;
+pub(crate) use judge::judge_while;
 pub use judge::{judge, judge_path, path_hash_with_signs};
 pub use report::{Certificate, Report, Violation, ViolationKind};
 pub use samples::{ReadSamples, Samples};

@@ -46,7 +46,16 @@ impl Piece {
     }
 }
 
-pub(super) fn check(obstacles: &ObstacleMap, vehicle: &Vehicle, path: &CurvePath) -> Swept {
+/// Pieces between two questions whether to go on.
+const PIECES_PER_LOOK: usize = 16;
+
+/// Checks a whole path; none where `goes_on` ends it before.
+pub(super) fn check(
+    obstacles: &ObstacleMap,
+    vehicle: &Vehicle,
+    path: &CurvePath,
+    goes_on: &mut dyn FnMut() -> bool,
+) -> Option<Swept> {
     let body = Body::new(vehicle);
     let mut pieces = cut(obstacles, &body, path);
     pieces.sort_by(|a, b| a.bound_m.total_cmp(&b.bound_m));
@@ -54,6 +63,9 @@ pub(super) fn check(obstacles: &ObstacleMap, vehicle: &Vehicle, path: &CurvePath
     let mut tightest = 0;
     let mut touching = Vec::new();
     for (i, piece) in pieces.iter().enumerate() {
+        if i.is_multiple_of(PIECES_PER_LOOK) && !goes_on() {
+            return None;
+        }
         if piece.bound_m >= least.max(2.0 * MIN_CLEARANCE_M) {
             break;
         }
@@ -67,12 +79,12 @@ pub(super) fn check(obstacles: &ObstacleMap, vehicle: &Vehicle, path: &CurvePath
     }
     let violations = collisions(obstacles, &body, touching);
     let (pose, driven_m) = narrowest(obstacles, &body, &pieces[tightest].drive);
-    Swept {
+    Some(Swept {
         min_clearance_m: if violations.is_empty() { least } else { 0.0 },
         tightest: obstacles.frame().to_world(pose).wrapped(),
         tightest_s_m: pieces[tightest].s_m + driven_m,
         violations,
-    }
+    })
 }
 
 fn cut(obstacles: &ObstacleMap, body: &Body, path: &CurvePath) -> Vec<Piece> {

@@ -5,7 +5,7 @@ use super::graph::{ChordGraph, Turn};
 use super::shared::ChordShared;
 use super::transition::Memory;
 use crate::colony::generation::Generation;
-use crate::colony::worker_pool::AntWorker;
+use crate::colony::worker_pool::{AntWorker, Pace};
 use crate::geometry::{Point2, angle_difference};
 use crate::map::Cell;
 use crate::numeric::{RandomStream, Seed};
@@ -68,11 +68,16 @@ impl<'a> ChordWorker<'a> {
 
     /// Walks until the goal, or until no step is left; returns whether the ant arrived, and the
     /// cost of its steps.
-    fn walk(&mut self, shared: &ChordShared, stream: &mut RandomStream) -> (bool, SteeringMeter) {
+    fn walk(
+        &mut self,
+        shared: &ChordShared,
+        stream: &mut RandomStream,
+        pace: &mut Pace,
+    ) -> (bool, SteeringMeter) {
         let graph = self.graph;
         let (mut meter, mut n_retreats) = (self.go_back(usize::MAX), 0);
         let mut n_left = graph.config.dead_end.max_retreats() as usize;
-        while self.taken.len() < graph.max_steps {
+        while self.taken.len() < graph.max_steps && pace.step() {
             let position = self.position();
             if position.at == graph.goal {
                 return (true, meter);
@@ -230,17 +235,22 @@ impl AntWorker for ChordWorker<'_> {
     type Shared = ChordShared;
     type Batch = Generation<PolylineCost>;
 
+    const STEPS_PER_LOOK: u32 = 64;
+
     fn walk_ants(
         &mut self,
         shared: &ChordShared,
-        iteration: u32,
-        ants: Range<u32>,
+        (iteration, ants): (u32, Range<u32>),
         generation: &mut Generation<PolylineCost>,
+        pace: &mut Pace,
     ) {
         let graph = self.graph;
         for ant in ants {
+            if pace.is_over() {
+                return;
+            }
             let mut stream = self.seed.stream([u64::from(iteration), u64::from(ant)]);
-            let (arrived, meter) = self.walk(shared, &mut stream);
+            let (arrived, meter) = self.walk(shared, &mut stream, pace);
             let steps = self.taken.iter().map(|taken| taken.step);
             generation.steps.extend(steps);
             generation

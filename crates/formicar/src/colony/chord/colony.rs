@@ -23,7 +23,7 @@ const NOTHING: f32 = 1e-30;
 /// Runs a colony that steps by chords.
 ///
 /// Same problem, configuration and seed: same run, to the last bit, on any number of threads. A
-/// step of the limits is a step of an ant; deadline and cancel are looked at every few ants.
+/// step of the limits is a step of an ant; deadline and cancel are looked at every few steps.
 /// Set-up takes time in proportion to the cells of the map, a generation to the steps walked and
 /// to the cells of the corridor.
 ///
@@ -101,7 +101,7 @@ impl<'a> Colony for ChordColony<'a> {
         self.graph.space()
     }
 
-    fn prepare(&mut self, iteration: u32) -> &Arc<ChordShared> {
+    fn prepare(&mut self, iteration: u32, _goes_on: &mut dyn FnMut() -> bool) -> &Arc<ChordShared> {
         let n_iterations = self.graph.config.n_iterations;
         Arc::make_mut(&mut self.shared).factor = factor(iteration, n_iterations);
         &self.shared

@@ -2,6 +2,7 @@
 
 use super::DriveConfig;
 use super::shared::DriveShared;
+use crate::colony::worker_pool::Pace;
 use crate::geometry::{Arc, Point2};
 use crate::numeric::RandomStream;
 use crate::progress::DriveWay;
@@ -48,8 +49,8 @@ impl<'a> Ant<'a> {
         &mut self,
         shared: &DriveShared,
         start: State,
-        draw: &mut RandomStream,
-        is_greedy: bool,
+        (draw, is_greedy): (&mut RandomStream, bool),
+        pace: &mut Pace,
     ) -> DriveWay {
         let guide = &shared.guide;
         self.states.clear();
@@ -64,6 +65,9 @@ impl<'a> Ant<'a> {
         let mut died_at = None;
         for n_steps in 1..=max_steps {
             let here = self.states[self.states.len() - 1];
+            if !pace.step() {
+                return self.dead(died_at.or(Some(here.pose.position())), n_steps);
+            }
             if self
                 .problem
                 .wants_shot(guide, here.pose.position(), n_steps)

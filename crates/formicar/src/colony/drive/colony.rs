@@ -71,8 +71,7 @@ impl<'a> DriveColony<'a, '_> {
     /// # Errors
     /// Budget, deadline or cancel.
     pub fn look_for_a_way(&mut self, limits: &mut Limits) -> Result<Option<Driven>, Status> {
-        limits.look()?;
-        let ways = self.walk();
+        let ways = self.walk(limits)?;
         let n_told = ways.iter().position(|way| way.died_at.is_none());
         self.tell(
             &ways[..n_told.map_or(ways.len(), |place| place + 1)],
@@ -83,7 +82,6 @@ impl<'a> DriveColony<'a, '_> {
             if limits.take(way.n_steps) < way.n_steps {
                 return Err(Status::BudgetExhausted);
             }
-            limits.look()?;
             match way.died_at {
                 None => return Ok(Some((way.start, way.arcs))),
                 Some(place) => deaths.push(place),
@@ -120,14 +118,13 @@ impl<'a> DriveColony<'a, '_> {
         shared.trails.renew(rho, deposit, start, arcs);
         shared.first_wins = false;
         shared.starts = branches.iter().map(|branch| branch.1).collect();
-        let ways = self.walk();
+        let ways = self.walk(limits)?;
         self.tell(&ways, limits);
         let mut whole = Vec::new();
         for (index, way) in ways.into_iter().enumerate() {
             if limits.take(way.n_steps) < way.n_steps {
                 return Err(Status::BudgetExhausted);
             }
-            limits.look()?;
             if way.died_at.is_none() {
                 let (before, _) = &branches[index / 2 % branches.len()];
                 whole.push(before.iter().copied().chain(way.arcs).collect());
@@ -137,11 +134,14 @@ impl<'a> DriveColony<'a, '_> {
     }
 
     /// The paths of a generation.
-    fn walk(&mut self) -> Vec<DriveWay> {
+    fn walk(&mut self, limits: &mut Limits) -> Result<Vec<DriveWay>, Status> {
+        limits.look()?;
+        let (shared, ways) = (&self.shared, &mut self.ways);
         self.pool
-            .walk(&self.shared, self.generation, &mut self.ways);
+            .walk_while(shared, self.generation, ways, &mut || limits.look().is_ok());
+        limits.look()?;
         self.generation += 1;
-        std::mem::take(&mut self.ways.0)
+        Ok(std::mem::take(&mut self.ways.0))
     }
 
     /// Reports the last generation to the observer.

@@ -3,7 +3,7 @@
 use super::DriveConfig;
 use super::ant::Ant;
 use super::shared::DriveShared;
-use crate::colony::worker_pool::{AntWorker, Batch};
+use crate::colony::worker_pool::{AntWorker, Batch, Pace};
 use crate::numeric::Seed;
 use crate::progress::DriveWay;
 use crate::search::DriveProblem;
@@ -46,19 +46,25 @@ impl<'a> AntWorker for DriveWorker<'a> {
     type Shared = DriveShared<'a>;
     type Batch = Ways;
 
+    const STEPS_PER_LOOK: u32 = 1;
+
     fn walk_ants(
         &mut self,
         shared: &DriveShared<'a>,
-        generation: u32,
-        ants: Range<u32>,
+        (generation, ants): (u32, Range<u32>),
         ways: &mut Ways,
+        pace: &mut Pace,
     ) {
         for index in ants {
+            if pace.is_over() {
+                return;
+            }
             let mut draw = self.seed.stream([u64::from(generation), u64::from(index)]);
             let start = shared.starts[index as usize / 2 % shared.starts.len()];
             // The first two of a run are the greedy ones.
             let is_greedy = shared.first_wins && index < 2;
-            let way = self.ants[index as usize % 2].drive(shared, start, &mut draw, is_greedy);
+            let way =
+                self.ants[index as usize % 2].drive(shared, start, (&mut draw, is_greedy), pace);
             let has_arrived = way.died_at.is_none();
             ways.0.push(way);
             // Later ants of this batch cannot win any more.

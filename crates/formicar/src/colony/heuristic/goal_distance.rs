@@ -3,6 +3,7 @@
 use super::desire::LogDesire;
 use crate::colony::ColonyProblem;
 use crate::parameters::parameters;
+use crate::progress::{Limits, Status};
 
 parameters! {
     /// eta = 1 / max(d, floor) with the straight distance d from the cell to the goal, in cells.
@@ -20,10 +21,17 @@ parameters! {
 }
 
 impl GoalDistance {
-    pub(super) fn add_to(&self, desire: &mut LogDesire, problem: &ColonyProblem, cells: &[u32]) {
+    pub(super) fn add_to(
+        &self,
+        desire: &mut LogDesire,
+        problem: &ColonyProblem,
+        cells: &[u32],
+        limits: &mut Limits,
+    ) -> Result<(), Status> {
         let (moves, goal) = (problem.moves(), problem.goal());
         let (goal_col, goal_row) = (f64::from(goal.col), f64::from(goal.row));
         for (log, &index) in desire.cells.iter_mut().zip(cells) {
+            limits.step()?;
             let cell = moves.cell(index as usize);
             let (dx, dy) = (
                 f64::from(cell.col) - goal_col,
@@ -31,5 +39,6 @@ impl GoalDistance {
             );
             *log -= self.beta * dx.hypot(dy).max(self.floor_cells).ln();
         }
+        Ok(())
     }
 }

@@ -2,6 +2,7 @@
 
 use super::desire::LogDesire;
 use crate::parameters::parameters;
+use crate::progress::{Limits, Status};
 
 parameters! {
     /// lambda = 1 / max(S, floor) with the length S of the shortest allowed way from the cell to
@@ -17,10 +18,17 @@ parameters! {
 }
 
 impl GoalFieldGuidance {
-    pub(super) fn add_to(&self, desire: &mut LogDesire, costs_to_go: &[f64]) {
+    pub(super) fn add_to(
+        &self,
+        desire: &mut LogDesire,
+        costs_to_go: &[f64],
+        limits: &mut Limits,
+    ) -> Result<(), Status> {
         for (log, cost) in desire.cells.iter_mut().zip(costs_to_go) {
+            limits.step()?;
             *log += self.log_factor(*cost);
         }
+        Ok(())
     }
 
     pub(super) fn log_factor(&self, cost_to_go: f64) -> f64 {

@@ -21,6 +21,7 @@ pub(super) use desire::LogDesire;
 
 use super::ColonyProblem;
 use crate::parameters::rules;
+use crate::progress::{Limits, Status};
 
 rules! {
     /// The visibility of a cell: eta to the power of beta.
@@ -51,12 +52,19 @@ rules! {
 }
 
 impl Visibility {
-    pub(super) fn add_to(&self, desire: &mut LogDesire, problem: &ColonyProblem, cells: &[u32]) {
+    pub(super) fn add_to(
+        &self,
+        desire: &mut LogDesire,
+        problem: &ColonyProblem,
+        cells: &[u32],
+        limits: &mut Limits,
+    ) -> Result<(), Status> {
         match self {
             Self::None => {}
-            Self::GoalDistance(rule) => rule.add_to(desire, problem, cells),
+            Self::GoalDistance(rule) => rule.add_to(desire, problem, cells, limits)?,
             Self::StepLength(rule) => rule.add_to(desire),
         }
+        Ok(())
     }
 }
 
@@ -72,11 +80,17 @@ impl Guidance {
         }
     }
 
-    pub(super) fn add_to(&self, desire: &mut LogDesire, costs_to_go: &[f64]) {
+    pub(super) fn add_to(
+        &self,
+        desire: &mut LogDesire,
+        costs_to_go: &[f64],
+        limits: &mut Limits,
+    ) -> Result<(), Status> {
         match self {
             Self::None => {}
-            Self::GoalField(rule) => rule.add_to(desire, costs_to_go),
+            Self::GoalField(rule) => rule.add_to(desire, costs_to_go, limits)?,
             Self::Advantage(rule) => rule.add_to(desire, costs_to_go),
         }
+        Ok(())
     }
 }

@@ -102,6 +102,7 @@ impl<'a> CellSearch<'a> {
         ) -> Result<GridSearch, SearchError>,
     ) -> Result<Found, Halt> {
         task.with_cells(self.rule, |task, cells| {
+            limits.look()?;
             let ends = task.open_ends(cells.moves.blocked())?;
             limits.tell(&Event::SearchStarted);
             let path = search(cells, ends, limits)?.path;
@@ -110,7 +111,7 @@ impl<'a> CellSearch<'a> {
                 grid_path: Some(path.clone()),
                 ..Stages::default()
             };
-            Ok(way.made_drivable(task, self.smoothing, stages)?)
+            Ok(way.made_drivable(task, self.smoothing, stages, limits)?)
         })
     }
 }

@@ -11,8 +11,9 @@ use crate::path::GridPath;
 use crate::progress::{Event, Limits, Status, Stop};
 use crate::scenario::StartHeading;
 use crate::smoothing::{
-    Corners, RedundantNodes, SmoothingConfig, SmoothingError, SmoothingProblem, smooth,
+    Corners, RedundantNodes, SmoothingConfig, SmoothingError, SmoothingProblem, smooth_while,
 };
+use std::cell::RefCell;
 
 /// Factor on the steps back that are allowed once ants have failed.
 const PATIENT_RETREAT: u32 = 20;
@@ -149,7 +150,7 @@ impl ChordParameters {
                 ..Ended::new(stop.status(), stages)
             }));
         }
-        Ok(self.first_drivable(task, &ways, stages)?)
+        Ok(self.first_drivable(task, &ways, stages, &mut stop.limits_after(limits))?)
     }
 
     /// The first of some ways whose corners can all be rounded.
@@ -158,6 +159,7 @@ impl ChordParameters {
         task: &Task,
         ways: &[GridPath],
         mut stages: Stages,
+        limits: &mut Limits,
     ) -> Result<Found, Ended> {
         let problem = SmoothingProblem {
             obstacles: task.obstacles(),
@@ -167,11 +169,13 @@ impl ChordParameters {
         };
         let config = &self.smoothing;
         let mut first_error: Option<SmoothingError> = None;
+        let shared = RefCell::new(&mut *limits);
+        let goes_on = || shared.borrow_mut().look().is_ok();
         for way in ways {
             let nodes = config
                 .redundant_nodes
                 .apply(problem.blocked, problem.rule, way);
-            match smooth(&problem, config, task.request(), &nodes) {
+            match smooth_while(&problem, (config, task.request()), &nodes, &goes_on) {
                 Ok(smoothed) => {
                     stages.grid_path = Some(way.clone());
                     stages.nodes = nodes;
@@ -183,6 +187,9 @@ impl ChordParameters {
                     stages.grid_path.get_or_insert_with(|| way.clone());
                 }
             }
+        }
+        if let Err(status) = limits.look() {
+            return Err(Ended::new(status, stages));
         }
         let error = first_error.map_or(String::new(), |error| {
             format!(", the best of them: {error}")

@@ -64,10 +64,11 @@ impl ColonyParameters {
 impl Family for ColonyParameters {
     /// Sends the colony, and makes its best path drivable.
     fn find(&self, task: &mut Task<'_>, limits: &mut Limits<'_>) -> Result<Found, Halt> {
-        let (layers, [start, goal]) = self.lay(task)?;
+        let (layers, [start, goal]) = self.lay(task, limits)?;
         limits.tell(&Event::SearchStarted);
         let moves = MoveMasks::new(&layers.blocked, self.colony.diagonal_rule);
         let problem = ColonyProblem::new(moves, start, goal);
+        limits.look()?;
         let mut stages = Stages {
             layers: Some(layers),
             ..Stages::default()
@@ -101,7 +102,12 @@ impl Family for ColonyParameters {
             found: format!("the ants found a way of {} cells", best.cells.len()),
             hint: "a larger layers.expansion keeps them off corners",
         };
-        Ok(way.made_drivable(task, &self.smoothing, stages)?)
+        Ok(way.made_drivable(
+            task,
+            &self.smoothing,
+            stages,
+            &mut stop.limits_after(limits),
+        )?)
     }
 
     fn abilities(&self) -> Abilities {
@@ -119,14 +125,17 @@ impl Family for ColonyParameters {
 impl ColonyParameters {
     /// Lays the layers, and finds the cells between which ants walk: those of start and goal or,
     /// where these are covered, the nearest that are not.
-    fn lay(&self, task: &Task) -> Result<(Layers, [Cell; 2]), Ended> {
+    fn lay(&self, task: &Task, limits: &mut Limits) -> Result<(Layers, [Cell; 2]), Ended> {
         let frame = task.obstacles().frame();
         let cell = |pose: Pose2| frame.cell_at(pose.position()).unwrap_or_default();
         let ends = [task.request().start, task.request().goal].map(cell);
         let width_cells = width_cells(task);
         let rule = self.colony.diagonal_rule;
         let lethal = task.obstacles().lethal();
-        let layers = Layers::new(lethal, &self.layers, &ends, rule, width_cells);
+        let ground = (lethal, width_cells);
+        let goes_on = &mut || limits.look().is_ok();
+        let layers = Layers::new_while(ground, &self.layers, (&ends, rule), goes_on);
+        limits.look()?;
         // The body is free at both ends, so its middle is no farther than this from open ground.
         let radius = 2 * self.layers.expansion.n_cells(width_cells) + 1;
         let open = |end: &str, cell: Cell| {

@@ -5,7 +5,7 @@ use crate::metrics::{ClearanceSummary, PathMetrics};
 use crate::path::CurvePath;
 use crate::planner::{Ended, Found, Halt, NotFound, Outcome, Plan, PlanError, Task};
 use crate::progress::{Limits, Status};
-use crate::validation::{Certificate, Report, judge};
+use crate::validation::{Certificate, Report, judge_while};
 
 /// Lets the judge decide, and says why where there is no path.
 pub(super) fn conclude(
@@ -17,7 +17,10 @@ pub(super) fn conclude(
     let found = match found {
         Ok(found) => found,
         Err(halt) => {
-            let failure = explained(task, halt.ended()?, n_steps);
+            let failure = explained(task, halt.ended()?, limits);
+            if failure.status != Status::Cancelled && limits.is_cancelled() {
+                return Ok(cancelled(task, limits));
+            }
             return Ok(Outcome::NotFound(Box::new(failure)));
         }
     };
@@ -26,14 +29,22 @@ pub(super) fn conclude(
         stages,
         cut_by,
     } = found;
-    let report = judge(task.obstacles(), task.vehicle(), task.request(), &path);
+    let car = (task.obstacles().as_ref(), task.vehicle());
+    let goes_on = &mut || !limits.is_cancelled();
+    let Some(report) = judge_while(car, task.request(), &path, goes_on) else {
+        return Ok(cancelled(task, limits));
+    };
     Ok(match report.certify() {
         Ok(certificate) => {
             limits.tell_improved(&path);
+            let metrics = measured(task, &path, &certificate, limits);
+            if limits.is_cancelled() {
+                return Ok(cancelled(task, limits));
+            }
             Outcome::Found(Box::new(Plan {
                 planner: task.planner().to_owned(),
                 seed: task.seed(),
-                metrics: measured(task, &path, &certificate),
+                metrics,
                 path,
                 stages,
                 certificate,
@@ -52,9 +63,22 @@ pub(super) fn conclude(
     })
 }
 
-fn measured(task: &Task, path: &CurvePath, certificate: &Certificate) -> PathMetrics {
+/// The ending of a query that is cancelled while its result is judged or explained.
+fn cancelled(task: &Task, limits: &mut Limits) -> Outcome {
+    let failure = explained(task, Status::Cancelled.into(), limits);
+    Outcome::NotFound(Box::new(failure))
+}
+
+/// The metrics of a certified path; of no use once the query is cancelled.
+fn measured(
+    task: &Task,
+    path: &CurvePath,
+    certificate: &Certificate,
+    limits: &mut Limits,
+) -> PathMetrics {
     let (obstacles, vehicle) = (task.obstacles(), task.vehicle());
-    let clearance = ClearanceSummary::new(obstacles, vehicle, path, certificate.min_clearance_m);
+    let (least_m, goes_on) = (certificate.min_clearance_m, &mut || !limits.is_cancelled());
+    let clearance = ClearanceSummary::new_while((obstacles, vehicle), path, least_m, goes_on);
     let reached = task.request().reached_goal(vehicle.motion(), path.end());
     PathMetrics::new(path, vehicle, reached.goal, clearance)
 }
@@ -74,11 +98,11 @@ fn refusal(task: &Task, report: &Report) -> String {
 }
 
 /// A search that ended without a path.
-fn explained(task: &Task, ended: Ended, n_steps: u64) -> NotFound {
+fn explained(task: &Task, ended: Ended, limits: &mut Limits) -> NotFound {
     let (reason, explanation) = match (ended.reason, ended.explanation) {
         (Some(reason), Some(explanation)) => (reason, *explanation),
         (reason, explanation) => {
-            let (sentence, measured) = explain(task, ended.status, n_steps);
+            let (sentence, measured) = explain(task, ended.status, limits);
             let explanation = explanation.map_or(measured, |known| *known);
             (reason.unwrap_or(sentence), explanation)
         }
@@ -86,6 +110,6 @@ fn explained(task: &Task, ended: Ended, n_steps: u64) -> NotFound {
     NotFound {
         explanation,
         stages: *ended.stages,
-        ..NotFound::new(ended.status, reason, n_steps)
+        ..NotFound::new(ended.status, reason, limits.n_steps())
     }
 }

@@ -5,8 +5,8 @@ use super::legs::leg_name;
 use crate::collision::ObstacleMap;
 use crate::geometry::{Point2, Pose2};
 use crate::map::{BitGrid, Cell, Components, Connectivity, GridFrame};
-use crate::planner::{Disconnected, Ended, Explanation, Stages, Task};
-use crate::progress::Status;
+use crate::planner::{Disconnected, Ended, Explanation, Halt, Stages, Task};
+use crate::progress::{Limits, Status};
 use crate::search::widest_way_out;
 use crate::vehicle::Vehicle;
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -24,7 +24,14 @@ pub(in crate::planner) struct AxleGround {
 
 impl AxleGround {
     /// Labels the parts for a vehicle.
-    pub(in crate::planner) fn new(obstacles: &ObstacleMap, vehicle: &Vehicle) -> Self {
+    ///
+    /// # Errors
+    /// Deadline or cancel.
+    pub(in crate::planner) fn new(
+        obstacles: &ObstacleMap,
+        vehicle: &Vehicle,
+        limits: &mut Limits,
+    ) -> Result<Self, Status> {
         let inradius_m = vehicle.footprint().inradius();
         let disc_radius_m = inradius_m.max(0.0);
         // Only what blocks a position wherever it lies in its cell: from the cell's center to the
@@ -41,12 +48,15 @@ impl AxleGround {
             let blocked = distance.within(radius.clamp(0.0, limit));
             blocked.unwrap_or_else(|| obstacles.lethal().clone())
         };
+        limits.look()?;
         // A move from cell to cell may lead across a corner.
-        let components = Components::new(&blocked, Connectivity::Eight);
-        Self {
+        let components =
+            Components::new_while(&blocked, Connectivity::Eight, &mut || limits.look().is_ok());
+        limits.look()?;
+        Ok(Self {
             components,
             disc_radius_m,
-        }
+        })
     }
 }
 
@@ -58,10 +68,21 @@ struct DeadLeg {
     to: Point2,
 }
 
-/// Why no path can exist, where start and via points or goals lie in different parts of the
-/// map; none where they do not. Nothing that can be driven is refused.
-pub(super) fn disconnected(task: &mut Task) -> Option<Ended> {
-    let ground = task.map.axle_ground();
+/// Refuses a request whose start and via points or goals lie in different parts of the map.
+/// Nothing that can be driven is refused.
+///
+/// # Errors
+/// Why no path can exist; deadline or cancel.
+pub(super) fn check(task: &mut Task, limits: &mut Limits) -> Result<(), Halt> {
+    limits.look()?;
+    let ground = task.map.axle_ground(limits)?;
+    let ended = disconnected(task, &ground, limits);
+    limits.look()?;
+    ended.map_or(Ok(()), |ended| Err(ended.into()))
+}
+
+/// Why no path can exist; none where one may.
+fn disconnected(task: &Task, ground: &AxleGround, limits: &mut Limits) -> Option<Ended> {
     let request = task.request();
     let frame = *task.obstacles().frame();
     let start = frame.cell_at(request.start.position())?;
@@ -74,7 +95,7 @@ pub(super) fn disconnected(task: &mut Task) -> Option<Ended> {
     let missed = via.position(|via| !is_reached(via.position, via.tolerance.xy_m));
     if let Some(leg) = missed {
         let to = request.via[leg].position;
-        return Some(explained(task, &ground, &DeadLeg { leg, to }));
+        return Some(explained(task, ground, &DeadLeg { leg, to }, limits));
     }
     let tolerance_m = request.goal_tolerance.xy_m;
     if request
@@ -88,7 +109,7 @@ pub(super) fn disconnected(task: &mut Task) -> Option<Ended> {
         .goals()
         .min_by(|a, b| distance_m(a).total_cmp(&distance_m(b)))?;
     let (leg, to) = (request.via.len(), nearest.position());
-    Some(explained(task, &ground, &DeadLeg { leg, to }))
+    Some(explained(task, ground, &DeadLeg { leg, to }, limits))
 }
 
 /// The cells of the map that have a position within a distance of a place.
@@ -113,8 +134,8 @@ fn cells_within(
     })
 }
 
-/// The ending for a leg to another part of the map.
-fn explained(task: &Task, ground: &AxleGround, dead: &DeadLeg) -> Ended {
+/// The ending for a leg to another part of the map; of no use once a limit ends the query.
+fn explained(task: &Task, ground: &AxleGround, dead: &DeadLeg, limits: &mut Limits) -> Ended {
     let request = task.request();
     let frame = task.obstacles().frame();
     let components = &ground.components;
@@ -130,7 +151,12 @@ fn explained(task: &Task, ground: &AxleGround, dead: &DeadLeg) -> Ended {
         Some(_) => components.label(frame.cell(i)) == other,
         None => i == index,
     };
-    let passage = widest_way_out(task.obstacles().distance(), ends[from], is_there);
+    let passage = widest_way_out(
+        task.obstacles().distance(),
+        ends[from],
+        is_there,
+        &mut || limits.look().is_ok(),
+    );
     let gap = passage.as_ref().map(|passage| gap_of(task, passage));
     let fallback = || {
         "start and goal lie in different parts of the ground where the rear axle can be".to_owned()

@@ -2,15 +2,17 @@
 
 use crate::numeric::counted;
 use crate::planner::{Explanation, Gap, Task};
-use crate::progress::Status;
+use crate::progress::{Limits, Status};
 use crate::scenario::{GoalHeading, Request};
-use crate::search::{Passage, widest_passage};
+use crate::search::{Passage, widest_passage_while};
 use crate::vehicle::Gears;
 
-/// Why a search ended without a path: as a sentence, and in numbers.
-pub(super) fn explain(task: &Task, status: Status, n_steps: u64) -> (String, Explanation) {
+/// Why a search ended without a path: as a sentence, and in numbers; of no use once the query is
+/// cancelled.
+pub(super) fn explain(task: &Task, status: Status, limits: &mut Limits) -> (String, Explanation) {
+    let n_steps = limits.n_steps();
     let gap = match status {
-        Status::NoPath | Status::BudgetExhausted => narrowest_place(task),
+        Status::NoPath | Status::BudgetExhausted => narrowest_place(task, limits),
         // Whoever cancels or has no time left waits for nothing.
         Status::Found | Status::Infeasible | Status::TimedOut | Status::Cancelled => None,
     };
@@ -77,12 +79,14 @@ fn out_of_steps(task: &Task, gap: &Gap, n_steps: u64) -> String {
 
 /// The narrowest place on the widest way of a request, to whichever of its goals; none where
 /// obstacles separate them.
-fn narrowest_place(task: &Task) -> Option<Gap> {
+fn narrowest_place(task: &Task, limits: &mut Limits) -> Option<Gap> {
     let frame = task.obstacles().frame();
     let from = frame.cell_at(task.request().start.position())?;
     let goals = task.request().goals();
     let cells = goals.filter_map(|goal| frame.cell_at(goal.position()));
-    let ways = cells.filter_map(|to| widest_passage(task.obstacles().distance(), from, to));
+    let distance = task.obstacles().distance();
+    let mut goes_on = || !limits.is_cancelled();
+    let ways = cells.filter_map(|to| widest_passage_while(distance, [from, to], &mut goes_on));
     let widest = ways.max_by(|a, b| a.distance_cells.total_cmp(&b.distance_cells))?;
     Some(gap_of(task, &widest))
 }

@@ -126,7 +126,7 @@ impl LegSearch<'_, '_, '_> {
             Ok(found) => return Ok(found),
             Err(halt) => halt.ended()?,
         };
-        let (explained, explanation) = explain(&task, ended.status, self.limits.n_steps());
+        let (explained, explanation) = explain(&task, ended.status, self.limits);
         let reason = ended.reason.as_ref().unwrap_or(&explained);
         let explanation = Explanation {
             leg: Some(leg + 1),

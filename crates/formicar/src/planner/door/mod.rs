@@ -129,11 +129,9 @@ impl Planner {
     ) -> Result<Outcome, PlanError> {
         let mut limits = self.begin(request, observer)?;
         let mut task = self.task(request, seed);
-        let found = match disconnected::disconnected(&mut task) {
-            Some(ended) => Err(ended.into()),
-            None => find(&mut task, &mut limits)
-                .and_then(|found| continuous::made_continuous(&task, found, &mut limits)),
-        };
+        let found = disconnected::check(&mut task, &mut limits)
+            .and_then(|()| find(&mut task, &mut limits))
+            .and_then(|found| continuous::made_continuous(&task, found, &mut limits));
         conclude::conclude(&task, found, &mut limits)
     }
 
@@ -168,10 +166,8 @@ impl Planner {
         check_motion(self.search.as_ref(), self.vehicle())?;
         let mut limits = self.begin(request, observer)?;
         let mut task = self.task(request, seed);
-        let found = match disconnected::disconnected(&mut task) {
-            Some(ended) => Err(ended.into()),
-            None => replan(&mut task, previous, &mut limits),
-        };
+        let found = disconnected::check(&mut task, &mut limits)
+            .and_then(|()| replan(&mut task, previous, &mut limits));
         conclude::conclude(&task, found, &mut limits)
     }
 

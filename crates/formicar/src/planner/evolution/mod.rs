@@ -52,14 +52,17 @@ impl Family for EvolutionParameters {
     /// Breeds polylines, and makes the best of them drivable.
     fn find(&self, task: &mut Task<'_>, limits: &mut Limits<'_>) -> Result<Found, Halt> {
         task.with_cells(self.grid_search.diagonal_rule, |task, cells| {
+            limits.look()?;
             let ends = task.open_ends(cells.moves.blocked())?;
             limits.tell(&Event::SearchStarted);
             let shortest = shortest(cells, ends, limits)?;
             let mut stages = Stages::default();
             let mut path = shortest.path.clone();
+            let mut stop = Stop::Stall;
             if ends[0] != ends[1] {
                 let run = self.breed(task, cells, &shortest, limits)?;
-                let (best, stop, reason) = (run.best.clone(), run.stop, self.reason(&run));
+                let (best, reason) = (run.best.clone(), self.reason(&run));
+                stop = run.stop;
                 stages.evolution = Some(run);
                 let Some(best) = best.filter(|_| stop != Stop::Cancelled) else {
                     return Err(Halt::Ended(Ended {
@@ -70,7 +73,12 @@ impl Family for EvolutionParameters {
                 path = GridPath { cells: best };
             }
             let way = CellPath::of_search(task, &cells.moves, &path, "points");
-            Ok(way.made_drivable(task, &self.smoothing, stages)?)
+            Ok(way.made_drivable(
+                task,
+                &self.smoothing,
+                stages,
+                &mut stop.limits_after(limits),
+            )?)
         })
     }
 

@@ -23,6 +23,7 @@ impl Family for FormicarParameters {
     /// Finds a path and improves it.
     fn find(&self, task: &mut Task<'_>, limits: &mut Limits<'_>) -> Result<Found, Halt> {
         let ground = task.drive_ground(&self.hybrid_astar)?;
+        limits.look()?;
         let cost = self.cost.of_vehicle(task.vehicle());
         let query = Query {
             task,

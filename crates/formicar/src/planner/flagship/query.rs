@@ -9,7 +9,7 @@ use crate::path::CurvePath;
 use crate::planner::{Ended, Found, Task};
 use crate::progress::{Limits, Status};
 use crate::search::{DriveProblem, Driven};
-use crate::validation::judge;
+use crate::validation::judge_while;
 
 /// A request with the parameters and the prepared problem.
 pub(super) struct Query<'a> {
@@ -61,7 +61,7 @@ impl Query<'_> {
     /// Announces a path to the observer where the judge certifies it.
     pub(super) fn announce_if_certified(&self, start: Pose2, arcs: &[Arc], limits: &mut Limits) {
         let path = self.task.driven(start, arcs).path;
-        if self.certifies(&path) {
+        if self.certifies(&path, limits) {
             limits.tell_improved(&path);
         }
     }
@@ -70,18 +70,21 @@ impl Query<'_> {
     pub(super) fn announced(&self, path: Option<Driven>, limits: &mut Limits) -> Option<Driven> {
         let driven = path?;
         let path = self.task.driven(driven.0, &driven.1).path;
-        if !self.certifies(&path) {
+        if !self.certifies(&path, limits) {
             return None;
         }
         limits.tell_improved(&path);
         Some(driven)
     }
 
-    /// True where the judge certifies a path.
-    pub(super) fn certifies(&self, path: &CurvePath) -> bool {
-        let (obstacles, vehicle) = (self.task.obstacles(), self.task.vehicle());
-        let report = judge(obstacles, vehicle, self.task.request(), path);
-        report.certify().is_ok()
+    /// True where the judge certifies a path before a limit ends the query.
+    pub(super) fn certifies(&self, path: &CurvePath, limits: &mut Limits) -> bool {
+        let car = (self.task.obstacles().as_ref(), self.task.vehicle());
+        let report = limits.keeping_time(|limits| {
+            let goes_on = &mut || limits.look().is_ok();
+            judge_while(car, self.task.request(), path, goes_on)
+        });
+        report.is_some_and(|report| report.certify().is_ok())
     }
 
     /// Improves a mended path and one planned anew, and takes the better one, the mended one with

@@ -70,6 +70,7 @@ impl HybridAstarParameters {
         limits: &mut Limits,
     ) -> Result<Found, Halt> {
         let ground = task.drive_ground(&self.hybrid_astar)?;
+        limits.look()?;
         let cost = self.cost.of_vehicle(task.vehicle());
         let problem = DriveProblem::new(&ground, &self.hybrid_astar, &cost, task.request());
         let (start, arcs) = hybrid_astar(&problem.with_soft_costs(costs), limits)?;

@@ -36,6 +36,7 @@ impl<'a> Guide<'a> {
         limits: &mut Limits,
     ) -> Result<Option<Self>, Status> {
         let (moves, stride) = problem.map().moves(inflation);
+        limits.look()?;
         let free = |cell: &Cell| !moves.blocked().get(cell.col as usize, cell.row as usize);
         let cells = |poses: &[Pose2]| {
             let cells = poses

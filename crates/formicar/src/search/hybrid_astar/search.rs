@@ -88,7 +88,7 @@ impl<'a> HybridSearch<'a> {
                         return Ok(None);
                     }
                     n_left -= 1;
-                    limits.step()?;
+                    limits.long_step()?;
                     self.open.pop();
                     self.drive(entry, step, guide, limits)?;
                 }

@@ -63,7 +63,9 @@ pub(super) struct Stuck {
 pub(super) fn cheapest(task: &RoundingTask, map: &Roadmap) -> Result<Vec<Piece>, Stuck> {
     let mut search = Search::new(task, map);
     search.open_start();
-    while let Some(entry) = search.open.pop() {
+    while let Some(entry) = search.open.pop()
+        && !task.is_over()
+    {
         let Move { span, step } = entry.item;
         if search.came_by[span.to].is_some() {
             continue;
@@ -113,6 +115,9 @@ impl<'a> Search<'a> {
             remaining: vec![f64::INFINITY; n_junctions],
         };
         for junction in (0..n_junctions).rev() {
+            if task.is_over() {
+                break;
+            }
             search.remaining[junction] = search.least_remaining(junction);
         }
         search

@@ -65,8 +65,6 @@ pub struct Improver<'a> {
     task: ImproveTask<'a>,
 }
 
-/// Tries, which take much longer than steps of a search, between two looks at the clock.
-const TRIES_PER_LOOK: u64 = 16;
 /// Tries between two looks at whether there is something to report.
 const TRIES_PER_ROUND: u64 = 64;
 /// The least gain that is worth reporting, relative to the cost.
@@ -265,10 +263,7 @@ impl LocalSearch<'_, '_, '_> {
 
     /// Counts a try and gives it its random numbers.
     fn begin(&mut self) -> Result<RandomStream, Status> {
-        self.limits.step()?;
-        if self.n_tries.is_multiple_of(TRIES_PER_LOOK) {
-            self.limits.look()?;
-        }
+        self.limits.long_step()?;
         if self.n_tries.is_multiple_of(TRIES_PER_ROUND) {
             self.report();
         }

@@ -51,7 +51,7 @@ impl Chain {
     fn pass(&mut self, task: &RoundingTask, step_m: f64) -> bool {
         let mut has_gained = false;
         let mut corner = 1;
-        while corner < self.points.len() - 1 {
+        while corner < self.points.len() - 1 && !task.is_over() {
             let without = self.without(corner);
             if without.is_some_and(|chain| self.take_if_cheaper(task, chain, corner - 1..=corner)) {
                 has_gained = true;

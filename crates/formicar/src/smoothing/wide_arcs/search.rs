@@ -33,6 +33,7 @@ pub(in crate::smoothing) fn widest(task: &RoundingTask, polyline: &[Point2]) -> 
         resolution_m: task.obstacles.frame().resolution_m(),
         reach_m: LEG_RADII * radius_m,
         corner_m: config.corner_radii * radius_m,
+        goes_on: task.goes_on,
     };
     let lead =
         |start: &Pose2| LEAD_RADII.map(|radii| start.advance(0.0, radii * radius_m).position());
@@ -51,7 +52,9 @@ pub(in crate::smoothing) fn widest(task: &RoundingTask, polyline: &[Point2]) -> 
         curves: Vec::new(),
     };
     search.open_start();
-    while let Some(entry) = search.open.pop() {
+    while let Some(entry) = search.open.pop()
+        && !task.is_over()
+    {
         let cost = entry.cost;
         match entry.item {
             Step::Lead(from, sight) => search.expand_lead(from, sight),

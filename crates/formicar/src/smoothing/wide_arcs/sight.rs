@@ -29,6 +29,8 @@ pub(super) struct View<'a> {
     pub(super) reach_m: f64,
     /// Cost of a corner.
     pub(super) corner_m: f64,
+    /// Whether to go on.
+    pub(super) goes_on: &'a dyn Fn() -> bool,
 }
 
 /// The points of a polyline, after its first one some leads, with the points that each sees.
@@ -43,7 +45,7 @@ pub(super) struct Sights {
 }
 
 impl Sights {
-    /// Finds all lines of sight; none if the polyline does not move. Leads are the places of the
+    /// Finds all lines of sight; none if the polyline does not move, or the caller ends it. Leads are the places of the
     /// first corner if the start has a heading; the first point then sees nothing else.
     pub(super) fn new(polyline: &[Point2], leads: &[Point2], view: &View) -> Option<Self> {
         let View { lethal, .. } = *view;
@@ -60,6 +62,9 @@ impl Sights {
         };
         let (mut all, mut ranges) = (Vec::new(), Vec::new());
         for (from, &at) in points.iter().enumerate() {
+            if !(view.goes_on)() {
+                return None;
+            }
             let first = all.len();
             let all_leads = (1..=n_leads).take_while(|_| from == 0);
             let later = ahead(from.max(n_leads), last).take_while(|_| from > 0 || n_leads == 0);
@@ -157,6 +162,7 @@ mod tests {
             resolution_m: 1.0,
             reach_m: 100.0,
             corner_m: 0.5,
+            goes_on: &|| true,
         };
         let sights = Sights::new(&points, &[], &view).unwrap();
         let seen = |from: usize| sights.from(from).iter().map(|s| s.to).collect::<Vec<_>>();

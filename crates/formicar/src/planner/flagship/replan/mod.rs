@@ -79,7 +79,7 @@ pub(super) fn mend_or_find_legs(
     };
     let mended = query.mender(previous).and_then(|mender| mender.mend(None));
     let old = mended.map(|(start, arcs)| query.task.driven(start, &arcs));
-    let Some(old) = old.filter(|old| query.certifies(&old.path)) else {
+    let Some(old) = old.filter(|old| query.certifies(&old.path, limits)) else {
         return anew;
     };
     let Ok(anew) = anew else {
