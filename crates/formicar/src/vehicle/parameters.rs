@@ -70,6 +70,10 @@ parameters! {
         #[range(POSITIVE)]
         #[serde(alias = "speed", skip_serializing_if = "Option::is_none")]
         pub speed_mps: Option<f64>,
+        /// Largest acceleration and deceleration, m/s^2; taken as 1 where it is left out.
+        #[range(POSITIVE)]
+        #[serde(alias = "max_acceleration", skip_serializing_if = "Option::is_none")]
+        pub max_acceleration_mps2: Option<f64>,
     }
 }
 
