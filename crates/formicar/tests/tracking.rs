@@ -580,7 +580,7 @@ proptest! {
             }
         }
         let counted_m2 = covered.len() as f64 * cell_m * cell_m;
-        let area_m2 = swept_area_m2(vehicle.footprint(), &path);
+        let area_m2 = swept_area_m2(&vehicle, &path);
         prop_assert!((area_m2 / counted_m2 - 1.0).abs() < 0.05, "{area_m2} {counted_m2}");
     }
 }
