@@ -6,6 +6,7 @@ use anyhow::Result;
 use formicar::collision::ObstacleMap;
 use formicar::geometry::Pose2;
 use formicar::numeric::Seed;
+use formicar::path::Spacing;
 use formicar::planner::{
     Answer, AnswerContext, NotFound, Outcome, PlanError, Planner, PlannerConfig, RequestDocument,
     Timing,
@@ -22,6 +23,8 @@ pub(crate) struct Session {
     pub(crate) obstacles: Arc<ObstacleMap>,
     /// The ants of the last query, if they are kept.
     pub(crate) ants: Option<AntFrames>,
+    /// How close the poses of its paths lie.
+    pub(crate) spacing: Spacing,
     map_setup_s: f64,
     begun: Instant,
 }
@@ -43,6 +46,7 @@ impl Session {
             planner,
             scene,
             ants: None,
+            spacing: Spacing::default(),
             map_setup_s: setup.elapsed().as_secs_f64(),
             begun,
         })
@@ -124,6 +128,7 @@ impl Session {
             planner: &self.planner,
             map: self.scene.record.clone(),
             vehicle_name: &self.scene.vehicle.name,
+            spacing: self.spacing,
         }
     }
 }

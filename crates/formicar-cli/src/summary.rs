@@ -1,7 +1,7 @@
 //! The summary of an answer for people.
 
 use formicar::numeric::counted;
-use formicar::planner::Answer;
+use formicar::planner::{Answer, KeepOutMapRecord};
 use formicar::progress::Status;
 use formicar::vehicle::Vehicle;
 use std::io::{self, Write};
@@ -31,6 +31,13 @@ pub(crate) fn write(
         goal_of_several(answer),
     )?;
     write_speed_and_steering(answer, out)?;
+    let closed = &answer.provenance.map.keep_out_maps;
+    for closed in closed.iter().map(KeepOutMapRecord::in_words) {
+        writeln!(out, "note       {closed}")?;
+    }
+    for note in &answer.notes {
+        writeln!(out, "note       {note}")?;
+    }
     let first = answer
         .timing
         .first_feasible_s

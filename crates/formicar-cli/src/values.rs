@@ -2,6 +2,7 @@
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use formicar::geometry::{Point2, Pose2};
+use formicar::path::Spacing;
 use formicar::scenario::{GoalTolerance, ViaPoint};
 use formicar::tracking::StartOffset;
 use serde::de::DeserializeOwned;
@@ -86,6 +87,23 @@ pub(crate) fn start_offset(text: &str) -> Result<StartOffset, String> {
         heading_rad: angle(part(1))?,
         along_m: number(part(2))?,
     })
+}
+
+/// `M[,RAD]`: the most meters and radians (or `10deg`) between two poses.
+pub(crate) fn spacing(text: &str) -> Result<Spacing, String> {
+    let expected = "M or M,RAD: meters and radians, for instance 0.05,5deg";
+    let parts = list(text, 1..=2, expected)?;
+    let usual = Spacing::default();
+    let spacing = Spacing {
+        max_m: number(parts[0])?,
+        max_turn_rad: parts
+            .get(1)
+            .map_or(Ok(usual.max_turn_rad), |turn| angle(turn))?,
+    };
+    spacing
+        .check()
+        .map_err(|error| format!("{error}; hint: 0.05 or 0.05,5deg"))?;
+    Ok(spacing)
 }
 
 /// `M,RAD`, both above 0.

@@ -186,7 +186,7 @@ fn fill(folder: &Path) {
     };
     let rows: Vec<String> = (0..150).map(row).collect();
     fs::write(folder.join("hall.txt"), rows.join("\n")).unwrap();
-    for map in ["depot", "lawn", "costmap"] {
+    for map in ["depot", "lawn", "costmap", "keepout_mask"] {
         let line = format!("formicar map convert hall.txt {map}.yaml --resolution 0.1");
         assert!(shell(folder, &line).status.success(), "{line}");
     }

@@ -1,6 +1,6 @@
 //! `plan`: answers, files, statuses and exit codes.
 
-use crate::common::{Room, formicar_in};
+use crate::common::{BARE_VEHICLE, Room, formicar_in};
 use serde_json::{Value, json};
 
 fn keys(object: &Value) -> Vec<&str> {
@@ -52,7 +52,9 @@ fn the_answer_has_the_promised_fields() {
         "direction",
         "heading",
         "s",
+        "speed",
         "steer",
+        "time",
         "x",
         "y",
     ];
@@ -98,20 +100,26 @@ fn runs_differ_in_their_timing_alone() {
 }
 
 #[test]
-fn two_calm_lines_for_people() {
+fn a_few_calm_lines_for_people() {
     let run = Room::new().plan(&[]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     let lines: Vec<_> = run.stdout.lines().collect();
-    assert_eq!(lines.len(), 2, "{}", run.stdout);
+    assert_eq!(lines.len(), 4, "{}", run.stdout);
     assert!(
         lines[0].starts_with("found ") && lines[0].contains("of 1.29 1/m"),
         "{}",
         lines[0]
     );
+    assert!(lines[1].starts_with("driven     in "), "{}", lines[1]);
     assert!(
-        lines[1].starts_with("certified ") && lines[1].contains("poses"),
+        lines[2].starts_with("note       the curvature jumps at ") && lines[2].contains("hint"),
         "{}",
-        lines[1]
+        lines[2]
+    );
+    assert!(
+        lines[3].starts_with("certified ") && lines[3].contains("poses"),
+        "{}",
+        lines[3]
     );
     assert!(!run.stdout.contains('\u{1b}'));
 }
@@ -132,7 +140,7 @@ fn writes_answer_poses_and_picture() {
     let csv = room.read("path.csv");
     let n_poses = answer["path"]["poses"].as_array().unwrap().len();
     assert_eq!(csv.lines().count(), n_poses + 1);
-    assert!(csv.starts_with("x,y,heading,s,direction,curvature,steer,clearance\n"));
+    assert!(csv.starts_with("x,y,heading,s,direction,curvature,steer,clearance,speed,time\n"));
     assert!(room.read("path.svg").contains("<svg"));
     assert_eq!(
         room.files(),
@@ -419,7 +427,8 @@ fn a_rate_that_is_none_is_refused_in_words() {
         .assert_refused(&["max_rate_per_m2", "-1", "0.0001 to 10000", "hint"]);
     room.plan(&["--continuous-curvature", "fast"])
         .assert_refused(&["fast", "not a number"]);
-    room.plan(&["--continuous-curvature"])
+    room.write("bare.toml", BARE_VEHICLE);
+    room.plan(&["--continuous-curvature", "--vehicle", "bare.toml"])
         .assert_refused(&["max_steer_rate_rad_per_s", "hint"]);
 }
 
@@ -434,4 +443,125 @@ fn a_budget_that_cuts_the_improvement_is_named() {
     assert!(whole.get("cut_by").is_none());
     let words = room.run(&["plan", "--map", "warehouse", "--budget", "2000"]);
     words.assert_says("stopped by the budget");
+}
+
+#[test]
+fn poses_lie_as_close_as_asked_and_check_reads_them_all() {
+    let room = Room::new();
+    let check = |path: &str| {
+        let check = [
+            "check",
+            path,
+            "--map",
+            "room.yaml",
+            "--vehicle",
+            "warehouse_amr",
+        ];
+        room.run(&check)
+    };
+    let mut counts = Vec::new();
+    for spacing in ["0.01", "0.5", "0.5,2deg", "1000,10"] {
+        let files = [
+            "--spacing",
+            spacing,
+            "--out",
+            "path.json",
+            "--out",
+            "path.csv",
+        ];
+        let plan = room.plan(&[&files[..], &["--goal-heading", "exact"]].concat());
+        assert_eq!(plan.code, 0, "{}", plan.stderr);
+        let answer: Value = serde_json::from_str(&room.read("path.json")).unwrap();
+        let poses = answer["path"]["poses"].as_array().unwrap();
+        counts.push(poses.len());
+        let checked = check("path.json");
+        assert_eq!(checked.code, 0, "{spacing}: {}", checked.stdout);
+        checked.assert_says("the certificate is for this map, vehicle and path");
+        let checked = check("path.csv");
+        assert_eq!(checked.code, 0, "{spacing}: {}", checked.stdout);
+    }
+    assert!(counts[0] > counts[2] && counts[2] > counts[1] && counts[1] > counts[3]);
+    for (bad, told) in [
+        ("1e-9", &["max_m", "1e-9", "0.001", "hint"][..]),
+        ("1e300", &["max_m", "1000"]),
+        ("0.1,0", &["max_turn_rad", "0.001"]),
+        ("nan", &["not finite"]),
+        ("0.1,0.2,0.3", &["3 numbers", "M,RAD"]),
+    ] {
+        room.plan(&["--spacing", bad]).assert_refused(told);
+    }
+}
+
+#[test]
+fn a_change_of_gear_has_a_row_for_each_gear() {
+    let room = Room::new();
+    let scene = ["--map", "parking-lot"];
+    let flags = ["--request", "back-in", "--set", "improve.max_tries=0"];
+    let files = ["--out", "path.json", "--out", "path.csv"];
+    let plan = room.run(&[&["plan"], &scene[..], &flags, &files].concat());
+    assert_eq!(plan.code, 0, "{}", plan.stderr);
+    let answer: Value = serde_json::from_str(&room.read("path.json")).unwrap();
+    let poses = answer["path"]["poses"].as_array().unwrap();
+    let cusps = poses
+        .windows(2)
+        .filter(|w| w[0]["direction"] != w[1]["direction"]);
+    let cusps: Vec<_> = cusps.collect();
+    assert_eq!(
+        cusps.len() as u64,
+        answer["metrics"]["n_cusps"].as_u64().unwrap()
+    );
+    assert!(!cusps.is_empty());
+    for cusp in cusps {
+        for key in ["x", "y", "heading", "s", "clearance"] {
+            assert_eq!(cusp[0][key], cusp[1][key], "{key}");
+        }
+    }
+    for path in ["path.json", "path.csv"] {
+        let checked = room.run(&[&["check", path], &scene[..]].concat());
+        assert_eq!(checked.code, 0, "{path}: {}", checked.stdout);
+    }
+}
+
+#[test]
+fn a_mask_closes_ground_and_is_named_in_answer_and_certificate() {
+    let room = Room::new();
+    // A mask of its own size and place: it closes the door of the room, 30 columns from the left.
+    let mut image = b"P5\n40 40\n255\n".to_vec();
+    image.extend((0..40 * 40).map(|i| if i / 40 < 36 { 0 } else { 205 }));
+    room.write("mask.pgm", image);
+    let yaml = "image: mask.pgm\nresolution: 0.07\norigin: [5.0, 5.2, 0.1]\nnegate: 0\n\
+                occupied_thresh: 0.65\nfree_thresh: 0.196\n";
+    room.write("mask.yaml", yaml);
+    let shut = room.plan(&["--keep-out", "mask.yaml"]);
+    assert_eq!(shut.code, 3, "{}{}", shut.stdout, shut.stderr);
+    room.write(
+        "mask.yaml",
+        yaml.replace("[5.0, 5.2, 0.1]", "[2.0, 5.2, 0.1]"),
+    );
+    let answer = room.plan(&["--keep-out", "mask.yaml", "--json", "--out", "path.json"]);
+    let answer = answer.json();
+    let maps = &answer["provenance"]["map"]["keep_out_maps"];
+    assert_eq!(maps[0]["name"], "mask.yaml");
+    let words = format!(
+        "the keep-out map mask.yaml closes {} cells",
+        maps[0]["n_cells"]
+    );
+    assert_eq!(answer["certificate"]["assumptions"], json!([words]));
+    room.plan(&["--keep-out", "mask.yaml"]).assert_says(&words);
+    let check = ["check", "path.json", "--map", "room.yaml"];
+    let with_mask = room.run(&[&check[..], &["--keep-out", "mask.yaml"]].concat());
+    assert_eq!(with_mask.code, 0, "{}", with_mask.stdout);
+    with_mask.assert_says("the certificate is for this map, vehicle and path");
+    room.run(&check).assert_says("for another map");
+    room.write("mask.yaml", yaml.replace("[5.0, 5.2, 0.1]", "[50, 50, 0]"));
+    let beside = room.plan(&["--keep-out", "mask.yaml"]);
+    assert!(
+        beside.stderr.contains("closes no ground"),
+        "{}",
+        beside.stderr
+    );
+    room.plan(&["--keep-out", "mesk.yaml"])
+        .assert_refused(&["--keep-out", "mesk.yaml"]);
+    room.plan(&["--keep-out", "1,2 3"])
+        .assert_refused(&["not x,y", "map file"]);
 }

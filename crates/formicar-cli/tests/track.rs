@@ -1,18 +1,25 @@
 //! `track`: drives in simulation, their files, words and exit codes.
 
-use crate::common::{Room, Run, formicar_in};
+use crate::common::{BARE_VEHICLE, Room, Run, formicar_in};
 use serde_json::Value;
 
 /// The room with a plan in it.
 fn planned() -> Room {
     let room = Room::new();
-    assert_eq!(room.plan(&["--out", "plan.json"]).code, 0);
+    room.write("bare.toml", BARE_VEHICLE);
+    let plan = room.plan(&["--vehicle", "bare.toml", "--out", "plan.json"]);
+    assert_eq!(plan.code, 0, "{}", plan.stderr);
     room
 }
 
 fn track(room: &Room, more: &[&str]) -> Run {
     let track = ["track", "plan.json", "--map", "room.yaml"];
-    room.run(&[&track[..], more].concat())
+    let bare: &[&str] = if more.contains(&"--vehicle") {
+        &[]
+    } else {
+        &["--vehicle", "bare.toml"]
+    };
+    room.run(&[&track[..], bare, more].concat())
 }
 
 #[test]
@@ -36,6 +43,32 @@ fn a_plan_is_driven_by_every_law() {
             .unwrap();
         assert!(error_m < 0.1, "{law}: {error_m}");
     }
+}
+
+#[test]
+fn a_preset_drives_at_its_pace_and_arcs_are_no_path_for_it() {
+    let room = planned();
+    let drive = |path: &str, more: &[&str]| {
+        let track = [
+            "track",
+            path,
+            "--map",
+            "room.yaml",
+            "--vehicle",
+            "warehouse_amr",
+        ];
+        room.run(&[&track[..], more].concat())
+    };
+    let config = drive("plan.json", &["--json"]).json();
+    assert_eq!(config["config"]["speed_mps"], 1.0);
+    assert_eq!(config["config"]["max_steer_rate_rad_per_s"], 1.0);
+    let lost = drive("plan.json", &["--give-up", "0.05"]);
+    assert_eq!(lost.code, 3);
+    lost.assert_says("--continuous-curvature");
+    let plan = room.plan(&["--continuous-curvature", "--out", "smooth.json"]);
+    assert_eq!(plan.code, 0, "{}", plan.stderr);
+    let smooth = drive("smooth.json", &["--give-up", "0.05"]);
+    assert_eq!(smooth.code, 0, "{}", smooth.stdout);
 }
 
 #[test]
@@ -82,7 +115,8 @@ fn five_lines_for_people() {
 #[test]
 fn an_answer_comes_through_a_pipe_too() {
     let room = planned();
-    let piped = ["track", "-", "--map", "room.yaml", "--json"];
+    let piped = "track - --map room.yaml --vehicle bare.toml --json";
+    let piped: Vec<_> = piped.split(' ').collect();
     let run = formicar_in(room.folder.path(), &piped, &room.read("plan.json"));
     assert_eq!(run.code, 0, "{}", run.stderr);
     assert_eq!(run.stdout, track(&room, &["--json"]).stdout);
@@ -189,6 +223,7 @@ fn writes_trace_and_pictures() {
     assert_eq!(
         room.files(),
         [
+            "bare.toml",
             "drive.png",
             "drive.svg",
             "plan.json",
@@ -266,7 +301,10 @@ fn what_makes_no_sense_is_refused() {
     for (flags, words) in cases {
         track(&room, flags).assert_refused(words);
     }
-    assert_eq!(room.files(), ["plan.json", "room.pgm", "room.yaml"]);
+    assert_eq!(
+        room.files(),
+        ["bare.toml", "plan.json", "room.pgm", "room.yaml"]
+    );
 }
 
 #[test]

@@ -8,7 +8,7 @@ use crate::vehicle::Car;
 use formicar::collision::ObstacleMap;
 use formicar::geometry::{Point2, Pose2};
 use formicar::metrics::{ClearanceSummary, CompatibleMetrics, PathMetrics};
-use formicar::path::{CurvePath, Direction};
+use formicar::path::{CurvePath, Direction, Spacing};
 use formicar::planner::PathDocument;
 use formicar::validation::{
     CURVATURE_TOLERANCE, FOREIGN_CURVATURE_SLACK, ForeignPath, Report, Samples, judge, judge_path,
@@ -97,7 +97,7 @@ impl Track {
     ) -> PyResult<(Bound<'py, PyAny>, f64, i8, bool)> {
         let obstacles = grid.obstacles();
         let (path, report) = py.detach(|| self.report(&obstacles, &car.vehicle));
-        let report = report.assuming(&grid.record.warnings);
+        let report = report.assuming(&grid.record.assumptions());
         let first = path.segments().first();
         let gear = first.map_or_else(Direction::default, |segment| segment.direction);
         let document = values::to_python(py, &report)?;
@@ -137,7 +137,8 @@ impl Track {
 
     /// Sampled poses as CSV, measured against a map.
     fn poses_csv(&self, grid: &Grid, car: &Car) -> String {
-        PathDocument::new(self.path(), &grid.obstacles(), &car.vehicle).poses_csv()
+        let spacing = Spacing::default();
+        PathDocument::new(self.path(), &grid.obstacles(), &car.vehicle, spacing).poses_csv()
     }
 
     /// Poses at most so far apart: x, y, heading, s, direction and curvature of each.

@@ -8,7 +8,7 @@ use crate::vehicle::Car;
 use formicar::collision::ObstacleMap;
 use formicar::map::{Cell, OccupancyGrid};
 use formicar::numeric::Seed;
-use formicar::path::CurvePath;
+use formicar::path::{CurvePath, Spacing};
 use formicar::planner::{
     Answer, AnswerContext, AnswerStatus, MapRecord, PathDocument, PlannerConfig, RequestDocument,
     Stages, Timing,
@@ -131,6 +131,7 @@ impl Asked {
             planner: &planner,
             map: self.record.clone(),
             vehicle_name: &self.car.name,
+            spacing: Spacing::default(),
         };
         let result = Ok(outcome.clone());
         context.answer(Some(&self.request), self.seed, &result, self.timing)

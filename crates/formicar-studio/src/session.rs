@@ -11,7 +11,7 @@ use crate::scene::Scene;
 use crate::state::Studio;
 use crate::wanted::WantedPlans;
 use formicar::numeric::Seed;
-use formicar::path::CurvePath;
+use formicar::path::{CurvePath, Spacing};
 use formicar::planner::{AnswerContext, PlanError, RequestDocument, Timing};
 use formicar::render::{AnswerPicture, Layout, answer_picture};
 use formicar::scenario::Request;
@@ -177,6 +177,7 @@ impl Session {
             planner,
             map: scene.record(),
             vehicle_name: &scene.vehicle_name,
+            spacing: Spacing::default(),
         };
         let answer = context.answer(request.as_ref(), seed, &result, timing);
         self.studio.planners.keep(scene, planner);

@@ -3,6 +3,7 @@
 use formicar::geometry::Pose2;
 use formicar::map::OccupancyGrid;
 use formicar::numeric::Seed;
+use formicar::path::Spacing;
 use formicar::planner::{
     Answer, AnswerContext, AnswerStatus, MapRecord, Planner, PlannerConfig, PlannerName, Timing,
 };
@@ -54,6 +55,7 @@ fn an_answer_survives_the_wire() {
                 planner: &planner,
                 map: MapRecord::default(),
                 vehicle_name: "point",
+                spacing: Spacing::default(),
             };
             let answer = context.answer(Some(&request), Seed(2), &result, Timing::default());
             assert_eq!(answer.code, code);

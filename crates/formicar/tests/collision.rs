@@ -2,7 +2,7 @@
 
 use formicar::collision::{Body, Drive, MIN_CLEARANCE_M, ObstacleMap};
 use formicar::geometry::{ConvexPolygon, Point2, Pose2};
-use formicar::map::OccupancyGrid;
+use formicar::map::{Cell, OCCUPIED, OccupancyGrid};
 use formicar::numeric::{RandomStream, Seed};
 use formicar::vehicle::{Vehicle, VehicleParameters};
 
@@ -25,16 +25,37 @@ fn vehicles() -> Vec<Vehicle> {
         r#"{"footprint": [[1.1, 0.0], [0.7, 0.35], [-0.3, 0.4], [-0.45, 0.0], [-0.3, -0.4], [0.7, -0.35]], "min_turning_radius": 0.6}"#,
     );
     let hexagon: VehicleParameters = footprint.unwrap();
-    vec![
+    let mut vehicles = vec![
         Vehicle::warehouse_amr(),
         Vehicle::f1tenth(),
         Vehicle::new(hexagon).unwrap(),
+    ];
+    vehicles.extend(concave());
+    vehicles
+}
+
+/// An L, a U with the axle in its notch, and a T of a triangle and a bar.
+fn concave() -> [Vehicle; 3] {
+    [
+        "[[[-0.4, -0.4], [1.0, -0.4], [1.0, 0.0], [-0.4, 0.0]], [[-0.4, -0.4], [0.0, -0.4], [0.0, 0.9], [-0.4, 0.9]]]",
+        "[[[-0.5, 0.3], [0.9, 0.3], [0.9, 0.5], [-0.5, 0.5]], [[-0.5, -0.5], [0.9, -0.5], [0.9, -0.3], [-0.5, -0.3]], [[-0.6, -0.5], [-0.4, -0.5], [-0.4, 0.5], [-0.6, 0.5]]]",
+        "[[[-0.3, 0.0], [0.8, -0.3], [0.8, 0.3]], [[0.7, -0.8], [1.0, -0.8], [1.0, 0.8], [0.7, 0.8]]]",
     ]
+    .map(|parts| {
+        let json = format!(r#"{{"parts": {parts}, "min_turning_radius_m": 0.8}}"#);
+        Vehicle::new(serde_json::from_str(&json).unwrap()).unwrap()
+    })
 }
 
 /// Distance of a placed body to squares and border, by sampling edges against exact squares: an
 /// upper bound that is at most half the spacing too large.
-fn sampled_clearance(map: &OccupancyGrid, body: &ConvexPolygon, pose: Pose2) -> f64 {
+fn sampled_clearance(map: &OccupancyGrid, vehicle: &Vehicle, pose: Pose2) -> f64 {
+    let parts = vehicle.parts().iter();
+    let sampled = parts.map(|part| sampled_clearance_of(map, part, pose));
+    sampled.fold(f64::INFINITY, f64::min)
+}
+
+fn sampled_clearance_of(map: &OccupancyGrid, body: &ConvexPolygon, pose: Pose2) -> f64 {
     const N_SAMPLES: u32 = 60;
     let placed = body.placed(pose);
     let extent = map.frame().extent_m();
@@ -90,12 +111,12 @@ fn clearance_of_thousands_of_poses() {
     for round in 0..n_rounds {
         let map = random_map(&mut draw);
         let obstacles = ObstacleMap::new(&map);
-        let vehicle = &vehicles()[round % 3];
+        let vehicle = &vehicles()[round % 6];
         let body = Body::new(vehicle);
         for _ in 0..100 {
             let pose = random_pose(&mut draw);
             let exact = obstacles.clearance_m(&body, pose);
-            let sampled = sampled_clearance(&map, vehicle.footprint(), pose);
+            let sampled = sampled_clearance(&map, vehicle, pose);
             assert!(exact <= sampled + 1e-9, "{pose:?}: {exact} > {sampled}");
             // Sampled edges miss the nearest point by half a spacing at most.
             assert!(
@@ -118,7 +139,7 @@ fn clearance_along_hundreds_of_drives() {
     for round in 0..n_rounds {
         let map = random_map(&mut draw);
         let obstacles = ObstacleMap::new(&map);
-        let vehicle = &vehicles()[round % 3];
+        let vehicle = &vehicles()[round % 6];
         let body = Body::new(vehicle);
         for i in 0..20 {
             let curvature = if i % 5 == 0 {
@@ -153,6 +174,32 @@ fn clearance_along_hundreds_of_drives() {
         }
     }
     assert!((n_rounds..19 * n_rounds).contains(&n_free), "{n_free}");
+}
+
+#[test]
+fn what_stands_in_a_notch_of_the_body_is_not_hit() {
+    // The four cells beside the axle of a fork whose arms are 0.6 m apart.
+    let row = ".".repeat(24);
+    let mut map = OccupancyGrid::from_rows(&[&row[..]; 24], 0.125).unwrap();
+    for (col, row) in [(11, 11), (12, 11), (11, 12), (12, 12)] {
+        map.set(Cell::new(col, row), OCCUPIED);
+    }
+    let obstacles = ObstacleMap::new(&map);
+    let [_, fork, _] = concave();
+    let (body, pose) = (Body::new(&fork), Pose2::new(1.4375, 1.4375, 0.0));
+    assert!((obstacles.clearance_m(&body, pose) - (0.3 - 0.1875)).abs() < 1e-12);
+    assert!(obstacles.overlap(&body, pose).is_none());
+    assert!(obstacles.touched_cells(&body, pose).is_empty());
+    assert!((obstacles.contact(&fork, pose).y - 1.625).abs() < 1e-12);
+    let ahead = |length_m| Drive {
+        start: pose,
+        curvature_per_m: 0.0,
+        signed_length_m: length_m,
+    };
+    // The open end lets it back out; its back ends the drive ahead after 0.3375 m.
+    assert!(obstacles.is_free(&body, &ahead(-0.7)));
+    assert!(obstacles.is_free(&body, &ahead(0.33)));
+    assert!(!obstacles.is_free(&body, &ahead(0.34)));
 }
 
 /// A corner that swings out between two poses that are free: sampling would miss it.

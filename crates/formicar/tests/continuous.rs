@@ -8,13 +8,13 @@ use formicar::map::generate::{ScatterParameters, free_pose_pairs, scattered_obst
 use formicar::map::{GridFrame, OccupancyGrid};
 use formicar::numeric::Seed;
 use formicar::objective::DriveCost;
-use formicar::path::{CurvePath, Direction};
+use formicar::path::{CurvePath, Direction, SpeedLimits};
 use formicar::planner::{Outcome, PathDocument, Plan, Planner, PlannerConfig, PlannerName};
 use formicar::progress::Status;
 use formicar::scenario::{CurvatureMode, CurvatureRate, Request};
 use formicar::smoothing::Continuity;
 use formicar::validation::{ViolationKind, judge};
-use formicar::vehicle::{Vehicle, VehicleParameters};
+use formicar::vehicle::{PRESET_NAMES, Vehicle, VehicleParameters};
 
 fn continuous(start: Pose2, goal: Pose2, max_rate_per_m2: Option<f64>) -> Request {
     Request {
@@ -130,7 +130,7 @@ fn assert_is_as_asked(
     assert!(plan.certificate.goal_error_m <= 1e-2);
     assert_rate_of_samples(&plan.path, rate);
     assert_clearance_holds(obstacles, vehicle, plan);
-    let document = PathDocument::new(&plan.path, obstacles, vehicle);
+    let document = PathDocument::new(&plan.path, obstacles, vehicle, 0.1);
     let text = serde_json::to_string(&document).expect("numbers");
     let back: PathDocument = serde_json::from_str(&text).expect("the same document");
     assert_eq!(back.curve_path().expect("a path"), plan.path);
@@ -177,7 +177,11 @@ fn the_ends_of_a_path_stay_where_they_are() {
 #[test]
 fn the_judge_refuses_jumps_and_fast_changes() {
     let obstacles = ObstacleMap::new(&field());
-    let vehicle = Vehicle::lei2020();
+    let vehicle = Vehicle::new(VehicleParameters {
+        max_steer_rate_rad_per_s: None,
+        ..Vehicle::lei2020().parameters().clone()
+    })
+    .expect("valid measures");
     let kinds = |path: &CurvePath, rate| {
         let request = continuous(path.start(), path.end(), rate);
         let report = judge(&obstacles, &vehicle, &request, path);
@@ -277,4 +281,17 @@ fn a_rate_too_small_for_the_room_is_infeasible_and_says_where() {
     };
     let problem = continuity.apply(&path).expect_err("no room");
     assert!(problem.to_string().contains("0.0010 1/m^2"), "{problem}");
+}
+
+#[test]
+fn every_preset_that_steers_knows_its_pace_and_the_curvature_that_it_allows() {
+    let (start, goal) = (Pose2::new(8.0, 8.0, 0.0), Pose2::new(26.0, 20.0, 1.0));
+    for name in PRESET_NAMES.into_iter().filter(|name| *name != "point") {
+        let vehicle = Vehicle::preset(name).expect("a preset");
+        let limits = SpeedLimits::of(&vehicle).expect("a pace");
+        limits.check().expect("limits in range");
+        let outcome = plan(&field(), &vehicle, &continuous(start, goal, None));
+        let plan = outcome.found().expect("a path");
+        assert!(plan.metrics.travel_time_s.is_some(), "{name}");
+    }
 }

@@ -24,6 +24,17 @@ const STANLEY: Controller = Controller::Stanley(Stanley {
 });
 const ALL: [Controller; 3] = [Controller::OpenLoop, PURE_PURSUIT, STANLEY];
 
+/// Without limits of steering rate and speed, so that a test says what it means of them.
+fn lei2020() -> Vehicle {
+    let parameters = VehicleParameters {
+        max_steer_rate_rad_per_s: None,
+        speed_mps: None,
+        max_acceleration_mps2: None,
+        ..Vehicle::lei2020().parameters().clone()
+    };
+    Vehicle::new(parameters).expect("a vehicle")
+}
+
 fn by(controller: Controller) -> TrackingConfig {
     TrackingConfig {
         controller,
@@ -52,7 +63,7 @@ fn path(pieces: &[(f64, f64, Direction)]) -> CurvePath {
 }
 
 fn drive(path: &CurvePath, config: &TrackingConfig) -> Tracking {
-    track(path, &Vehicle::lei2020(), config).expect("a path and parameters that can be driven")
+    track(path, &lei2020(), config).expect("a path and parameters that can be driven")
 }
 
 /// A three-point turn with lines between its arcs.
@@ -69,7 +80,7 @@ fn shunt() -> CurvePath {
 
 #[test]
 fn open_loop_drives_lines_circles_and_cusps_exactly() {
-    let radius_m = Vehicle::lei2020().min_turning_radius_m();
+    let radius_m = lei2020().min_turning_radius_m();
     for path in [
         path(&[(0.0, 40.0, Forward)]),
         path(&[(1.0 / radius_m, 3.0 * TAU * radius_m, Forward)]),
@@ -222,7 +233,7 @@ fn wheels_take_their_time_where_their_rate_is_limited() {
 
 #[test]
 fn both_front_wheels_roll_about_one_center() {
-    let limit = Vehicle::lei2020().max_curvature_per_m();
+    let limit = lei2020().max_curvature_per_m();
     let path = path(&[
         (limit, 5.0, Forward),
         (-0.2, 5.0, Forward),
@@ -262,7 +273,7 @@ fn a_vehicle_that_cannot_come_back_has_left_the_path_or_gives_up() {
     };
     let drive_turned = drive(&path(&[(0.0, 3.0, Forward)]), &turned);
     assert_eq!(drive_turned.status, TrackingStatus::GaveUp);
-    let limit_m = 3.0 + Vehicle::lei2020().min_turning_radius_m();
+    let limit_m = 3.0 + lei2020().min_turning_radius_m();
     assert!((drive_turned.summary.driven_m - limit_m).abs() < 0.01);
 }
 
@@ -295,7 +306,7 @@ fn contact_and_clearance_are_where_geometry_puts_them() {
     line.push(0.0, 30.0, Forward);
     let driven = |lateral_m| {
         let drive = drive(&line, &beside(Controller::OpenLoop, lateral_m, 0.0));
-        (drive.clearance(&walled(), &Vehicle::lei2020()), drive)
+        (drive.clearance(&walled(), &lei2020()), drive)
     };
     let (free, _) = driven(-0.3);
     assert_eq!(free.contact, None);
@@ -322,7 +333,7 @@ fn contact_and_clearance_are_where_geometry_puts_them() {
 fn what_stands_in_a_wall_touches_at_once() {
     let stand = CurvePath::new(Pose2::new(19.0, 3.0, 0.0));
     let drive = drive(&stand, &by(STANLEY));
-    let clearance = drive.clearance(&walled(), &Vehicle::lei2020());
+    let clearance = drive.clearance(&walled(), &lei2020());
     let contact = clearance.contact.expect("a contact");
     assert_eq!((contact.t_s, contact.driven_m), (0.0, 0.0));
 }
@@ -383,7 +394,7 @@ fn parameters_out_of_range_are_refused_with_value_and_range() {
     for (change, words) in cases {
         let mut config = TrackingConfig::default();
         change(&mut config);
-        let error = track(&shunt(), &Vehicle::lei2020(), &config).expect_err("out of range");
+        let error = track(&shunt(), &lei2020(), &config).expect_err("out of range");
         let text = error.to_string();
         assert!(words.iter().all(|word| text.contains(word)), "{text}");
     }
@@ -394,7 +405,7 @@ fn vehicles_and_paths_that_cannot_be_driven_are_refused() {
     let config = TrackingConfig::default();
     let of = |vehicle: &Vehicle, path: &CurvePath| track(path, vehicle, &config).unwrap_err();
     assert_eq!(of(&Vehicle::point(), &shunt()), TrackingError::NeedsACar);
-    let lei = Vehicle::lei2020();
+    let lei = lei2020();
     let corners = lei.footprint().corners().iter().map(|p| [p.x, p.y]);
     let no_wheelbase = VehicleParameters {
         footprint: Some(formicar::vehicle::FootprintSpec::Points(corners.collect())),
@@ -486,7 +497,7 @@ proptest! {
 
     #[test]
     fn limits_are_kept_everywhere((path, config) in any_drive()) {
-        let vehicle = Vehicle::lei2020();
+        let vehicle = lei2020();
         let drive = drive(&path, &config);
         let limit_rad = 40_f64.to_radians() + 1e-12;
         prop_assert!(drive.summary.max_steer_rad <= limit_rad);
@@ -548,7 +559,7 @@ proptest! {
 
     #[test]
     fn swept_area_is_that_of_a_raster(path in any_path(0.41)) {
-        let vehicle = Vehicle::lei2020();
+        let vehicle = lei2020();
         let bodies: Vec<_> = path
             .sample(0.1)
             .iter()
@@ -569,7 +580,7 @@ proptest! {
             }
         }
         let counted_m2 = covered.len() as f64 * cell_m * cell_m;
-        let area_m2 = swept_area_m2(vehicle.footprint(), &path);
+        let area_m2 = swept_area_m2(&vehicle, &path);
         prop_assert!((area_m2 / counted_m2 - 1.0).abs() < 0.05, "{area_m2} {counted_m2}");
     }
 }

@@ -8,10 +8,9 @@ use crate::scene::{self, Scene, SceneArgs};
 use crate::summary::{clearance, curvature};
 use clap::{Args, ValueHint};
 use formicar::collision::ObstacleMap;
-use formicar::geometry::wrap_angle;
 use formicar::numeric::counted;
-use formicar::path::{CurvePath, Direction, PathPose};
-use formicar::planner::{CertificateNumbers, POSE_SPACING_M, PoseRecord};
+use formicar::path::{CurvePath, Direction};
+use formicar::planner::{CertificateNumbers, are_samples_of};
 use formicar::validation::{Report, Violation, path_hash_with_signs};
 use formicar::vehicle::Vehicle;
 use serde::Serialize;
@@ -95,7 +94,7 @@ pub(crate) fn run(args: &CheckArgs, out: &mut impl Write) -> Result<Ending, Fail
 fn check(file: &PathFile, scene: &Scene) -> Checked {
     let vehicle = &scene.vehicle.vehicle;
     let (path, report) = file.judged(&ObstacleMap::new(&scene.map), vehicle);
-    let report = report.assuming(&scene.record.warnings);
+    let report = report.assuming(&scene.record.assumptions());
     let matches_record = file.hashes.as_ref().map(|record| Matches {
         map: record.map_hash == report.map_hash,
         vehicle: record.vehicle_hash == report.vehicle_hash,
@@ -103,11 +102,7 @@ fn check(file: &PathFile, scene: &Scene) -> Checked {
             || record.path_hash == path_hash_with_signs(path),
         numbers: file.numbers.is_some_and(|n| are_numbers_of(n, &report)),
     });
-    // Only a valid path is short enough to be sampled.
-    let poses_on_segments = match &file.poses {
-        Some(poses) if report.valid => Some(are_on(poses, path)),
-        _ => None,
-    };
+    let poses_on_segments = file.poses.as_ref().map(|poses| are_samples_of(poses, path));
     Checked {
         schema: "formicar/check/1",
         valid: report.valid && poses_on_segments != Some(false),
@@ -138,18 +133,6 @@ fn are_numbers_of(record: CertificateNumbers, report: &Report) -> bool {
     ];
     let is_near = |(was, is): &(f64, f64)| (was - is).abs() <= RECORD_TOLERANCE;
     record.valid == report.valid && pairs.iter().all(is_near)
-}
-
-/// Whether poses are the samples of a path.
-fn are_on(poses: &[PoseRecord], path: &CurvePath) -> bool {
-    let samples = path.sample(POSE_SPACING_M);
-    let is_at = |(pose, sample): (&PoseRecord, &PathPose)| {
-        let at = sample.pose;
-        (pose.x - at.x).hypot(pose.y - at.y) <= RECORD_TOLERANCE
-            && wrap_angle(pose.heading - at.heading).abs() <= RECORD_TOLERANCE
-            && pose.direction == sample.direction
-    };
-    poses.len() == samples.len() && poses.iter().zip(&samples).all(is_at)
 }
 
 fn first_gear(path: &CurvePath) -> Direction {

@@ -5,6 +5,7 @@ use crate::scene::ScenarioFile;
 use anyhow::{Result, anyhow};
 use clap::{Args, ValueEnum, ValueHint};
 use formicar::map::builtin;
+use formicar::path::SpeedLimits;
 use formicar::planner::PlannerName;
 use formicar::vehicle::{Motion, PRESET_NAMES, Vehicle};
 use std::io::Write;
@@ -74,8 +75,14 @@ fn measures(vehicle: &Vehicle) -> String {
     let wheelbase = vehicle
         .wheelbase_m()
         .map_or(String::new(), |m| format!(", wheelbase {m} m"));
+    let pace = SpeedLimits::of(vehicle).map_or(String::new(), |limits| {
+        let steering = limits.max_steer_rate_rad_per_s;
+        let steering = steering.map_or(String::new(), |rate| format!(", steers {rate} rad/s"));
+        let (speed, acceleration) = (limits.max_speed_mps, limits.max_acceleration_mps2);
+        format!("{steering}, {speed} m/s, {acceleration} m/s^2")
+    });
     format!(
-        "{:.2} x {:.2} m{wheelbase}, turning radius {:.2} m",
+        "{:.2} x {:.2} m{wheelbase}, turning radius {:.2} m{pace}",
         high.x - low.x,
         high.y - low.y,
         vehicle.min_turning_radius_m()

@@ -4,7 +4,8 @@ use crate::values;
 use clap::{Args, ValueHint};
 use formicar::geometry::Point2;
 use formicar::map::UnknownPolicy;
-use std::path::PathBuf;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
 
 /// Flags for the map, the areas closed on it, and the vehicle.
 #[derive(Args, Debug, Default)]
@@ -39,9 +40,11 @@ pub(crate) struct SceneArgs {
     #[arg(long, value_name = "GREY")]
     pub(crate) unknown_grey: Option<u8>,
 
-    /// Keep-out area: "x,y x,y x,y" or [[x, y], ...]; may be repeated.
-    #[arg(long, value_name = "POLYGON", value_parser = parse_polygon, allow_hyphen_values = true)]
-    pub(crate) keep_out: Vec<Polygon>,
+    /// Keep-out area: "x,y x,y x,y", [[x, y], ...], or a map file whose occupied cells close
+    /// ground, with its own origin and resolution; may be repeated.
+    #[arg(long, value_name = "POLYGON|F", value_parser = parse_keep_out, allow_hyphen_values = true,
+          value_hint = ValueHint::FilePath)]
+    pub(crate) keep_out: Vec<KeepOut>,
 
     /// Built-in vehicle (see `list vehicles`) or a .toml or .json file; `warehouse_amr` by default.
     #[arg(long, value_name = "NAME|F")]
@@ -52,10 +55,30 @@ pub(crate) struct SceneArgs {
     pub(crate) margin: Option<f64>,
 }
 
-/// Corners of an area. (A type of its own, since clap takes a bare `Vec` for a repeated flag.)
+/// Closed ground.
 #[derive(Clone, Debug)]
-pub(crate) struct Polygon(pub(crate) Vec<Point2>);
+pub(crate) enum KeepOut {
+    /// The corners of an area.
+    Area(Vec<Point2>),
+    /// The occupied cells of a map.
+    Map(PathBuf),
+}
 
-fn parse_polygon(text: &str) -> Result<Polygon, String> {
-    values::polygon(text).map(Polygon)
+/// A file has letters beside those of numbers in its name, or an extension.
+fn parse_keep_out(text: &str) -> Result<KeepOut, String> {
+    let path = Path::new(text);
+    if path.is_file() || path.extension().is_some_and(is_a_word) {
+        return Ok(KeepOut::Map(path.to_owned()));
+    }
+    let area = values::polygon(text).map_err(|problem| {
+        format!("{problem}; or name a map file, for instance keepout_mask.yaml")
+    });
+    area.map(KeepOut::Area)
+}
+
+/// Letters and digits, the first a letter: no decimals of a number.
+fn is_a_word(extension: &OsStr) -> bool {
+    let text = extension.to_string_lossy();
+    text.starts_with(|c: char| c.is_ascii_alphabetic())
+        && text.chars().all(|c| c.is_ascii_alphanumeric())
 }

@@ -1,6 +1,6 @@
 //! Cells that block though they are no obstacles: unknown ones, and those of keep-out areas.
 
-use super::args::{Polygon, SceneArgs};
+use super::closed::Closed;
 use formicar::map::{Cell, DistanceField, OCCUPIED, OccupancyGrid, UNKNOWN, UnknownPolicy};
 use formicar::planner::Explanation;
 use formicar::scenario::ScenarioError;
@@ -26,16 +26,19 @@ enum Kind {
 
 impl Blocked {
     /// Of a map as its file has it.
-    pub(super) fn new(map: &OccupancyGrid, args: &SceneArgs) -> Self {
-        let blocks = args.unknown == UnknownPolicy::Occupied && map.values().contains(&UNKNOWN);
-        let keep_out = (!args.keep_out.is_empty()).then(|| {
-            let mut closed = OccupancyGrid::free(*map.frame());
-            close(&mut closed, &args.keep_out);
-            closed
-        });
+    pub(super) fn new(map: &OccupancyGrid, unknown: UnknownPolicy, closed: Closed) -> Self {
+        let blocks = unknown == UnknownPolicy::Occupied && map.values().contains(&UNKNOWN);
         Self {
             unknown: blocks.then(|| map.clone()),
-            keep_out,
+            keep_out: closed.cells,
+        }
+    }
+
+    /// Closes the keep-out ground of a map.
+    pub(super) fn close(&self, map: &mut OccupancyGrid) {
+        if let Some(closed) = &self.keep_out {
+            let cells = closed.lethal_cells();
+            cells.iter().for_each(|cell| map.set(cell, OCCUPIED));
         }
     }
 
@@ -103,10 +106,7 @@ impl Blocked {
             .is_none_or(|gap| gap.gap_m < vehicle.width_m());
         let known = self.unknown.as_ref().filter(|_| is_blocked)?;
         let mut open = known.clone().with_unknown(UnknownPolicy::Free);
-        if let Some(closed) = &self.keep_out {
-            let shut = closed.lethal_cells();
-            shut.iter().for_each(|cell| open.set(cell, OCCUPIED));
-        }
+        self.close(&mut open);
         let truncation = DistanceField::DEFAULT_TRUNCATION_CELLS;
         let distance = DistanceField::new(&open.lethal_cells(), truncation);
         let [from, to] = ends;
@@ -126,13 +126,6 @@ impl Blocked {
                 "{n_unknown} cells of the map are unknown and count as occupied; --unknown free drives on them, and a way is wide enough then"
             )
         })
-    }
-}
-
-/// Fills keep-out areas.
-pub(super) fn close(map: &mut OccupancyGrid, areas: &[Polygon]) {
-    for area in areas {
-        map.fill_polygon(&area.0, OCCUPIED);
     }
 }
 

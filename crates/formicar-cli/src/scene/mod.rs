@@ -2,6 +2,7 @@
 
 mod args;
 mod blocked;
+mod closed;
 mod scenario_file;
 mod vehicle;
 
@@ -11,7 +12,7 @@ pub(crate) use scenario_file::{Loaded, ScenarioFile};
 pub(crate) use vehicle::by_name as vehicle;
 
 use anyhow::{Result, bail};
-use args::Polygon;
+use closed::Closed;
 use formicar::geometry::Pose2;
 use formicar::map::builtin::BuiltinMap;
 use formicar::map::format::{MapFile, ReadOptions};
@@ -49,10 +50,11 @@ pub(crate) fn load(args: &SceneArgs) -> Result<Scene> {
     if let Some(margin_m) = args.margin {
         vehicle.vehicle = vehicle.vehicle.with_safety_margin(margin_m)?;
     }
-    let blocked = Blocked::new(&loaded.map, args);
+    let closed = Closed::new(loaded.map.frame(), &args.keep_out)?;
+    let (keep_out, keep_out_maps) = (closed.areas.clone(), closed.maps.clone());
+    let blocked = Blocked::new(&loaded.map, args.unknown, closed);
     let mut map = loaded.map.with_unknown(args.unknown);
-    blocked::close(&mut map, &args.keep_out);
-    let corners = |area: &Polygon| area.0.iter().map(|p| [p.x, p.y]).collect();
+    blocked.close(&mut map);
     let record = MapRecord {
         name: loaded.name,
         unknown: match args.unknown {
@@ -60,7 +62,8 @@ pub(crate) fn load(args: &SceneArgs) -> Result<Scene> {
             UnknownPolicy::Occupied => "occupied",
         }
         .to_owned(),
-        keep_out: args.keep_out.iter().map(corners).collect(),
+        keep_out,
+        keep_out_maps,
         warnings: loaded.warnings,
         ..MapRecord::default()
     };

@@ -82,6 +82,10 @@ pub(crate) struct Room {
     pub(crate) folder: tempfile::TempDir,
 }
 
+/// The default vehicle as a file, without limits of steering rate, speed and acceleration.
+pub(crate) const BARE_VEHICLE: &str = "wheelbase_m = 0.65\nwidth_m = 0.62\n\
+    front_overhang_m = 0.125\nrear_overhang_m = 0.125\nmax_steer_deg = 40\n";
+
 const N_COLS: usize = 60;
 const N_ROWS: usize = 40;
 

@@ -11,7 +11,7 @@ use anyhow::{Context, Result};
 use formicar::map::Cell;
 use formicar::map::format::write_atomically;
 use formicar::numeric::Seed;
-use formicar::path::{CurvePath, GridPath};
+use formicar::path::{CurvePath, GridPath, Spacing};
 use formicar::planner::{
     AnswerContext, ColonyRecord, Outcome, PathDocument, Plan, PlanError, Planner, RequestDocument,
     Stages, Timing,
@@ -164,6 +164,7 @@ impl OurRun<'_> {
             planner: &self.planner,
             map: self.scenario.map_record.clone(),
             vehicle_name: &self.scenario.vehicle_name,
+            spacing: Spacing::default(),
         };
         let measured = &counted.answer;
         let timing = Timing {
@@ -186,7 +187,7 @@ impl OurRun<'_> {
         let mut poses = Vec::new();
         if path.segments().is_empty() {
             let (obstacles, vehicle) = (self.planner.obstacles(), self.planner.vehicle());
-            poses = PathDocument::new(path, obstacles, vehicle).poses;
+            poses = PathDocument::new(path, obstacles, vehicle, 1.0).poses;
             poses.truncate(1);
         }
         PathDocument {

@@ -5,8 +5,13 @@ use crate::geometry::{ConvexPolygon, Point2};
 use crate::vehicle::{Motion, Vehicle};
 
 /// A footprint with its bounds: a box, covering discs, and points that certainly lie in it.
+///
+/// A body that is not convex has parts: corners and bounds are those of its hull, and distances
+/// those of the nearest part.
 #[derive(Clone, Debug)]
 pub struct Body {
+    /// The convex parts; none of a convex body.
+    pub(super) parts: Vec<Body>,
     /// Corners around the rear axle, counter-clockwise.
     pub(super) corners: Vec<Point2>,
     /// Middle of the bounding box.
@@ -17,9 +22,9 @@ pub struct Body {
     pub(super) discs: Vec<Point2>,
     /// Their radius.
     pub(super) disc_radius: f64,
-    /// Radius of the largest disc about the corner mean that stays inside.
+    /// Radius of the largest disc about the inner center that stays inside.
     pub(super) inner_radius: f64,
-    /// The corner mean.
+    /// The corner mean; of a body in parts, that of the part with the largest such disc.
     pub(super) inner_center: Point2,
     /// Inset of cell squares before a touch counts: a point may touch, a body may not.
     pub(super) inset: f64,
@@ -29,8 +34,34 @@ impl Body {
     /// The body of a vehicle with its safety margin.
     pub fn new(vehicle: &Vehicle) -> Self {
         match vehicle.motion() {
-            Motion::Car => Self::of(vehicle.footprint().corners().to_vec(), 0.0),
+            Motion::Car => Self::of_parts(vehicle),
             Motion::Point => Self::of(vec![Point2::default()], 2.0 * super::MIN_CLEARANCE_M),
+        }
+    }
+
+    fn of_parts(vehicle: &Vehicle) -> Self {
+        let convex = |polygon: &ConvexPolygon| Self::of(polygon.corners().to_vec(), 0.0);
+        let whole = convex(vehicle.footprint());
+        let [_, _, ..] = vehicle.parts() else {
+            return whole;
+        };
+        let parts: Vec<_> = vehicle.parts().iter().map(convex).collect();
+        let by_radius = |a: &&Self, b: &&Self| a.inner_radius.total_cmp(&b.inner_radius);
+        let widest = parts.iter().max_by(by_radius).expect("two parts at least");
+        Self {
+            inner_radius: widest.inner_radius,
+            inner_center: widest.inner_center,
+            parts,
+            ..whole
+        }
+    }
+
+    /// Its convex parts; itself where it is convex.
+    pub(super) fn convex_parts(&self) -> &[Self] {
+        if self.parts.is_empty() {
+            std::slice::from_ref(self)
+        } else {
+            &self.parts
         }
     }
 
@@ -50,6 +81,7 @@ impl Body {
             _ => about(&corners, inner_center).inradius(),
         };
         Self {
+            parts: Vec::new(),
             corners,
             middle,
             half,
@@ -61,7 +93,7 @@ impl Body {
         }
     }
 
-    /// Radius of the largest disc about the corner mean that stays inside the body, meters.
+    /// Radius of the largest disc about a corner mean that stays inside the body, meters.
     pub fn inner_radius_m(&self) -> f64 {
         self.inner_radius
     }
@@ -73,12 +105,16 @@ impl Body {
             .corners
             .iter()
             .fold(0.0, |r: f64, p| p.distance(center).max(r));
-        outer - point_boundary(center, &self.corners)
+        let parts = self.convex_parts().iter();
+        let inner = parts.map(|part| point_boundary(center, &part.corners));
+        outer - inner.fold(f64::INFINITY, f64::min)
     }
 
     /// Largest distance by which the covering discs exceed the sides of the bounding box, meters.
     pub fn discs_stand_out_m(&self) -> f64 {
-        self.disc_radius - self.half.x.min(self.half.y)
+        let parts = self.convex_parts().iter();
+        let out_m = parts.map(|part| part.disc_radius - part.half.x.min(part.half.y));
+        out_m.fold(0.0, f64::max)
     }
 
     /// The largest distance of the body from the rear-axle center, meters.

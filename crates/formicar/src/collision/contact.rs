@@ -11,6 +11,12 @@ type Contact = (f64, Point2);
 impl ObstacleMap {
     /// The point of a lethal square, or of the border, that a standing body comes nearest to.
     pub fn nearest_obstacle(&self, body: &Body, pose: Pose2) -> Point2 {
+        let parts = body.convex_parts().iter();
+        nearest(parts.map(|part| self.nearest_to_convex(part, pose)))
+            .map_or(pose.position(), |(_, place)| place)
+    }
+
+    fn nearest_to_convex(&self, body: &Body, pose: Pose2) -> Contact {
         let corners: Vec<Point2> = body.corners.iter().map(|&p| pose.transform(p)).collect();
         let border = corners.iter().map(|&p| self.border_contact(p));
         let border = nearest(border).unwrap_or((f64::INFINITY, pose.position()));
@@ -28,7 +34,7 @@ impl ObstacleMap {
         let squares = cells
             .filter(|&(col, row)| self.rim().contains(col as i64, row as i64))
             .filter_map(|cell| square_contact(&corners, &self.square(cell)));
-        nearest(squares.chain([border])).map_or(pose.position(), |(_, place)| place)
+        nearest(squares.chain([border])).unwrap_or(border)
     }
 
     /// The same for a vehicle at a world pose, in world coordinates.

@@ -31,6 +31,18 @@ impl ObstacleMap {
         along: Point2,
         enough_m: f64,
     ) -> f64 {
+        let parts = body.convex_parts().iter();
+        let rooms = parts.map(|part| self.estimate_of_convex(part, position, along, enough_m));
+        rooms.fold(f64::INFINITY, f64::min)
+    }
+
+    fn estimate_of_convex(
+        &self,
+        body: &Body,
+        position: Point2,
+        along: Point2,
+        enough_m: f64,
+    ) -> f64 {
         let place = |local: Point2| {
             Point2::new(
                 position.x + along.x * local.x - along.y * local.y,

@@ -16,6 +16,13 @@ impl ObstacleMap {
     /// Least clearance of a body along a drive, meters, or `limit_m` where it is at least that:
     /// a low limit makes the answer cheap.
     pub fn drive_clearance_m(&self, body: &Body, drive: &Drive, limit_m: f64) -> f64 {
+        let parts = body.convex_parts().iter();
+        parts.fold(limit_m, |least, part| {
+            self.convex_clearance_m(part, drive, least)
+        })
+    }
+
+    fn convex_clearance_m(&self, body: &Body, drive: &Drive, limit_m: f64) -> f64 {
         drive
             .pieces(drive.n_pieces(body))
             .fold(limit_m, |least, piece| {
@@ -31,6 +38,11 @@ impl ObstacleMap {
     /// Whether a body can drive without touching anything: its clearance exceeds
     /// [`MIN_CLEARANCE_M`] all the way. A point may touch, but not enter.
     pub fn is_free(&self, body: &Body, drive: &Drive) -> bool {
+        let mut parts = body.convex_parts().iter();
+        parts.all(|part| self.is_convex_free(part, drive))
+    }
+
+    fn is_convex_free(&self, body: &Body, drive: &Drive) -> bool {
         drive.pieces(drive.n_pieces(body)).all(|piece| {
             let sweep = Sweep::new(body, piece);
             self.at_least(&sweep) > MIN_CLEARANCE_M
@@ -40,9 +52,11 @@ impl ObstacleMap {
 
     /// A quick lower bound of the clearance along a drive, meters; may be negative.
     pub fn clearance_bound_m(&self, body: &Body, drive: &Drive) -> f64 {
-        let bounds = drive
-            .pieces(drive.n_pieces(body))
-            .map(|piece| self.at_least(&Sweep::new(body, piece)));
+        let parts = body.convex_parts().iter();
+        let bounds = parts.flat_map(|part| {
+            let pieces = drive.pieces(drive.n_pieces(part));
+            pieces.map(|piece| self.at_least(&Sweep::new(part, piece)))
+        });
         bounds.fold(f64::INFINITY, f64::min)
     }
 

@@ -33,7 +33,7 @@ impl ObstacleMap {
                 n_cells: 0,
             });
         }
-        let corners: Vec<Point2> = body.corners.iter().map(|&p| pose.transform(p)).collect();
+        let parts = placed_parts(body, pose);
         let resolution = self.frame().resolution_m();
         let half = 0.5 * resolution - body.inset;
         let (cols, rows) = self.cells_between(low, high, 0.0);
@@ -42,7 +42,7 @@ impl ObstacleMap {
             .filter(|&(col, row)| self.lethal().get(col, row))
             .map(|(col, row)| {
                 let center = Point2::new(col as f64 + 0.5, row as f64 + 0.5) * resolution;
-                let depth_m = penetration(&corners, &Square { center, half });
+                let depth_m = deepest_m(&parts, &Square { center, half });
                 (Cell::new(col as u32, row as u32), depth_m)
             })
             .filter(|&(_, depth_m)| depth_m > -super::MIN_CLEARANCE_M);
@@ -68,13 +68,13 @@ impl ObstacleMap {
     /// The lethal cells that a standing body touches, row by row; none where it stands free.
     pub fn touched_cells(&self, body: &Body, pose: Pose2) -> Vec<Cell> {
         let (low, high) = Sweep::new(body, Drive::at(pose)).bounds();
-        let corners: Vec<Point2> = body.corners.iter().map(|&p| pose.transform(p)).collect();
+        let parts = placed_parts(body, pose);
         let resolution = self.frame().resolution_m();
         let half = 0.5 * resolution - body.inset;
         let (cols, rows) = self.cells_between(low, high, 0.0);
         let touches = |&(col, row): &(usize, usize)| {
             let center = Point2::new(col as f64 + 0.5, row as f64 + 0.5) * resolution;
-            penetration(&corners, &Square { center, half }) > -super::MIN_CLEARANCE_M
+            deepest_m(&parts, &Square { center, half }) > -super::MIN_CLEARANCE_M
         };
         rows.flat_map(|row| cols.clone().map(move |col| (col, row)))
             .filter(|&(col, row)| self.lethal().get(col, row))
@@ -117,4 +117,15 @@ fn ring_offsets(ring: i32) -> impl Iterator<Item = (i32, i32)> {
             .step_by(step as usize)
             .map(move |dx| (dx, dy))
     })
+}
+/// Corners of the convex parts of a standing body.
+fn placed_parts(body: &Body, pose: Pose2) -> Vec<Vec<Point2>> {
+    let placed = |part: &Body| part.corners.iter().map(|&p| pose.transform(p)).collect();
+    body.convex_parts().iter().map(placed).collect()
+}
+
+/// The depth of the part that enters a square deepest, meters; negative where none does.
+fn deepest_m(parts: &[Vec<Point2>], square: &Square) -> f64 {
+    let depths = parts.iter().map(|corners| penetration(corners, square));
+    depths.fold(f64::NEG_INFINITY, f64::max)
 }

@@ -24,8 +24,8 @@ const PIECE_RAD: f64 = std::f64::consts::PI / 36.0;
 #[derive(Clone, Debug)]
 pub struct DriveMasks {
     lattice: PrimitiveSet,
-    /// Corners of the body around the rear axle, in meters.
-    corners: Vec<Point2>,
+    /// Corners of the body's convex parts around the rear axle, in meters.
+    parts: Vec<Vec<Point2>>,
     resolution_m: f64,
     by_heading: Vec<OnceLock<HeadingMasks>>,
 }
@@ -51,7 +51,9 @@ impl DriveMasks {
     /// Masks of a vehicle's body on the motions of a lattice, on cells of a size.
     pub fn new(vehicle: &Vehicle, lattice: PrimitiveSet, resolution_m: f64) -> Self {
         Self {
-            corners: vehicle.footprint().corners().to_vec(),
+            parts: (vehicle.parts().iter())
+                .map(|part| part.corners().to_vec())
+                .collect(),
             by_heading: vec![OnceLock::new(); lattice.n_headings()],
             lattice,
             resolution_m,
@@ -65,7 +67,8 @@ impl DriveMasks {
 
     /// Farthest that a mask reaches from its cell, in cells.
     pub fn reach_cells(&self) -> usize {
-        let body = self.corners.iter().fold(0.0, |r, p| p.norm().max(r));
+        let corners = self.parts.iter().flatten();
+        let body = corners.fold(0.0, |r, p| p.norm().max(r));
         let primitives = self.lattice.primitives().iter();
         let step = primitives.fold(0.0, |r, p| p.length_m.max(r));
         ((body + step) / self.resolution_m).ceil() as usize + 3
@@ -124,24 +127,27 @@ impl DriveMasks {
             0.0
         } else {
             let center = Point2::new(0.0, 1.0 / primitive.curvature_per_m);
-            self.corners
-                .iter()
-                .fold(0.0, |r, p| p.distance(center).max(r))
+            let corners = self.parts.iter().flatten();
+            corners.fold(0.0, |r, p| p.distance(center).max(r))
         };
         let scale = 1.0 / self.resolution_m;
-        let corners_after = |piece: f64| {
-            let pose = start.advance(arc.curvature_per_m, arc.signed_length_m * piece / n_pieces);
-            self.corners
+        let pose_after = |piece: usize| {
+            let driven = piece as f64 / n_pieces;
+            start.advance(arc.curvature_per_m, arc.signed_length_m * driven)
+        };
+        let hull = |part: &[Point2], piece: usize| {
+            let ends = [piece, piece + 1].map(pose_after);
+            let corners = ends
                 .iter()
-                .map(move |&p| pose.transform(p) * scale)
-                .collect::<Vec<_>>()
+                .flat_map(|pose| part.iter().map(|&p| pose.transform(p) * scale));
+            let corners: Vec<_> = corners.collect();
+            ConvexPolygon::hull(&corners).expect("a moved body has an area")
         };
-        let hull = |piece: usize| {
-            let ends = [piece, piece + 1].map(|i| corners_after(i as f64));
-            ConvexPolygon::hull(&ends.concat()).expect("a moved body has an area")
-        };
+        let pieces = 0..n_pieces as usize;
         Swept {
-            hulls: (0..n_pieces as usize).map(hull).collect(),
+            hulls: (self.parts.iter())
+                .flat_map(|part| pieces.clone().map(|piece| hull(part, piece)))
+                .collect(),
             // A corner runs on a circle: between two places it leaves their chord by the sagitta.
             sagitta: scale * farthest * (1.0 - (0.5 * turn / n_pieces).cos()),
         }
@@ -186,6 +192,30 @@ mod tests {
         DriveMasks::new(vehicle, lattice, resolution_m)
     }
 
+    /// Two arms and their back, with room for a cell between the arms.
+    fn fork() -> Vehicle {
+        let parts = "[[[-0.2, 0.9], [2.2, 0.9], [2.2, 1.2], [-0.2, 1.2]], [[-0.2, -1.2], [2.2, -1.2], [2.2, -0.9], [-0.2, -0.9]], [[-0.5, -1.2], [-0.2, -1.2], [-0.2, 1.2], [-0.5, 1.2]]]";
+        let json = format!(r#"{{"parts": {parts}, "min_turning_radius_m": 2.4}}"#);
+        Vehicle::new(serde_json::from_str(&json).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn a_cell_between_the_arms_of_a_fork_leaves_its_mask_clear() {
+        let masks = masks(&fork(), 0.2);
+        let mut cells = crate::map::BitGrid::new(60, 60);
+        cells.insert(Cell::new(35, 30));
+        let at = Point2::new(6.1, 6.1);
+        let padded = PaddedGrid::new(&cells, masks.reach_cells());
+        // Straight back: the arms pass the cell on both sides.
+        let back = masks.lattice().primitives().iter().position(|primitive| {
+            primitive.curvature_per_m == 0.0 && primitive.arc().signed_length_m < 0.0
+        });
+        assert!(masks.is_clear(&padded, at, 0, back.unwrap()));
+        cells.insert(Cell::new(35, 35));
+        let padded = PaddedGrid::new(&cells, masks.reach_cells());
+        assert!(!masks.is_clear(&padded, at, 0, back.unwrap()));
+    }
+
     proptest! {
         #[test]
         fn a_clear_mask_means_a_free_motion(
@@ -194,6 +224,7 @@ mod tests {
             heading in 0_usize..72,
             primitive in 0_usize..10,
             size in 0_usize..3,
+            is_fork in any::<bool>(),
         ) {
             let resolution_m = [0.1, 0.2, 0.7][size];
             let mut map = OccupancyGrid::from_rows(&[&".".repeat(90)[..]; 60], resolution_m).unwrap();
@@ -201,7 +232,7 @@ mod tests {
                 map.set(Cell::new(col, row), crate::map::OCCUPIED);
             }
             let map = ObstacleMap::new(&map);
-            let vehicle = Vehicle::lei2020();
+            let vehicle = if is_fork { fork() } else { Vehicle::lei2020() };
             let masks = masks(&vehicle, resolution_m);
             let padded = PaddedGrid::new(map.lethal(), masks.reach_cells());
             let position = Point2::new(place.0, place.1) * resolution_m;

@@ -20,17 +20,22 @@ impl SweptMasks {
     /// Masks of a vehicle with a margin around its body for steps given in cells, `(0, 0)` not
     /// among them, on cells of a size.
     pub fn new(vehicle: &Vehicle, margin_m: f64, steps: &[(i32, i32)], resolution_m: f64) -> Self {
-        let body = vehicle.footprint().grown(margin_m);
+        let parts: Vec<_> = (vehicle.parts().iter())
+            .map(|part| part.grown(margin_m))
+            .collect();
         let mask = |&(dx, dy): &(i32, i32)| {
             let step = Point2::new(f64::from(dx), f64::from(dy)) * resolution_m;
             let poses = [Point2::default(), step].map(|p| Pose2::at(p, step.angle()));
-            let corners = poses
-                .map(|pose| body.placed(pose).corners().to_vec())
-                .concat();
-            let in_cells: Vec<_> = corners.iter().map(|&p| p * (1.0 / resolution_m)).collect();
-            let swept = ConvexPolygon::hull(&in_cells).expect("a moved body has an area");
+            let swept = |part: &ConvexPolygon| {
+                let corners = poses
+                    .map(|pose| part.placed(pose).corners().to_vec())
+                    .concat();
+                let in_cells: Vec<_> = corners.iter().map(|&p| p * (1.0 / resolution_m)).collect();
+                ConvexPolygon::hull(&in_cells).expect("a moved body has an area")
+            };
+            let swept: Vec<_> = parts.iter().map(swept).collect();
             // Steps begin in the middle of a cell.
-            BitMask::of(&[swept], Point2::new(0.5, 0.5), ROUNDING)
+            BitMask::of(&swept, Point2::new(0.5, 0.5), ROUNDING)
         };
         Self {
             masks: steps.iter().map(mask).collect(),

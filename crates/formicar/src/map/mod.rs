@@ -12,6 +12,7 @@ pub mod format;
 mod frame;
 pub mod generate;
 mod grid;
+mod keep_out;
 mod line_of_sight;
 mod move_masks;
 mod neighborhood;

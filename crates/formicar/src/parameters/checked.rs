@@ -25,3 +25,9 @@ impl<P: Parameters> Parameters for Option<P> {
         self.as_ref().map_or(Ok(()), Parameters::check)
     }
 }
+
+impl<P: Parameters> Parameters for Vec<P> {
+    fn check(&self) -> Result<(), OutOfRange> {
+        self.iter().try_for_each(Parameters::check)
+    }
+}

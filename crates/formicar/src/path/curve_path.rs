@@ -1,5 +1,6 @@
 //! A drivable curve: lines, arcs and clothoids, each driven forward or in reverse.
 
+use super::Spacing;
 use crate::geometry::{Arc, Point2, Pose2};
 
 /// The gear.
@@ -64,6 +65,13 @@ pub struct CurveSegment {
 }
 
 impl CurveSegment {
+    /// The equal steps into which a spacing cuts it, at least 1.
+    pub fn n_steps(&self, spacing: &Spacing) -> usize {
+        let turn_rad = self.max_abs_curvature_per_m() * self.length_m;
+        let n_steps = (self.length_m / spacing.max_m).max(turn_rad / spacing.max_turn_rad);
+        n_steps.ceil().max(1.0) as usize
+    }
+
     /// The pose after driving a part of the segment.
     pub fn pose_at(&self, driven_m: f64) -> Pose2 {
         let sign = self.direction.sign();
@@ -274,8 +282,10 @@ impl CurvePath {
         Self { start, segments }
     }
 
-    /// Poses at most `spacing_m` apart, with both ends of every segment.
-    pub fn sample(&self, spacing_m: f64) -> Vec<PathPose> {
+    /// Poses no farther apart than the spacing, with both ends of every segment. A number is a
+    /// spacing in meters, above 0.
+    pub fn sample(&self, spacing: impl Into<Spacing>) -> Vec<PathPose> {
+        let spacing = spacing.into();
         let first = self.segments.first();
         let mut poses = vec![PathPose {
             pose: self.start,
@@ -285,7 +295,7 @@ impl CurvePath {
         }];
         let mut s_m = 0.0;
         for segment in &self.segments {
-            let n_steps = (segment.length_m / spacing_m).ceil().max(1.0) as usize;
+            let n_steps = segment.n_steps(&spacing);
             poses.extend((1..=n_steps).map(|i| {
                 let driven = segment.length_m * i as f64 / n_steps as f64;
                 PathPose {

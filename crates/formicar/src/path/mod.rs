@@ -2,9 +2,11 @@
 
 mod ahead;
 mod curve_path;
+mod spacing;
 mod speed;
 
 pub use curve_path::{CurvePath, CurveSegment, Direction, PathPose};
+pub use spacing::Spacing;
 pub use speed::{SpeedLimits, SpeedProfile, TimedPose};
 
 use crate::geometry::Point2;

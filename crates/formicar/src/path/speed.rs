@@ -7,7 +7,7 @@
 //! depend on the profile). The vehicle stands at both ends, where the gear changes, and (where the
 //! steering rate is known) where the curvature jumps; there its wheels turn first.
 
-use super::{CurvePath, CurveSegment};
+use super::{CurvePath, CurveSegment, Spacing};
 use crate::parameters::parameters;
 use crate::vehicle::Vehicle;
 
@@ -33,10 +33,14 @@ impl SpeedLimits {
     /// The limits of a vehicle that says how fast it drives; none of the others.
     pub fn of(vehicle: &Vehicle) -> Option<Self> {
         let parameters = vehicle.parameters();
+        let usual = Self::default();
         Some(Self {
             max_speed_mps: parameters.speed_mps?,
+            max_acceleration_mps2: parameters
+                .max_acceleration_mps2
+                .unwrap_or(usual.max_acceleration_mps2),
             max_steer_rate_rad_per_s: parameters.max_steer_rate_rad_per_s,
-            ..Self::default()
+            ..usual
         })
     }
 }
@@ -49,6 +53,8 @@ pub struct TimedPose {
     pub speed_mps: f64,
     /// Time when it is reached, seconds from the beginning.
     pub time_s: f64,
+    /// Time that the vehicle then stands there, while its wheels turn, seconds; 0 at most poses.
+    pub stands_s: f64,
 }
 
 /// Speeds and times along a path.
@@ -85,26 +91,34 @@ struct Step {
 impl SpeedProfile {
     /// The fastest drive along a path within limits that have been checked. The wheels turn about
     /// the vehicle's own axles; where its wheelbase is unknown they do not bound the speed.
-    pub fn new(path: &CurvePath, vehicle: &Vehicle, limits: &SpeedLimits, spacing_m: f64) -> Self {
+    pub fn new(
+        path: &CurvePath,
+        vehicle: &Vehicle,
+        limits: &SpeedLimits,
+        spacing: impl Into<Spacing>,
+    ) -> Self {
         let wheels = Wheels {
             wheelbase_m: vehicle.wheelbase_m().unwrap_or(0.0),
             rate_rad_per_s: limits
                 .max_steer_rate_rad_per_s
                 .filter(|_| vehicle.wheelbase_m().is_some()),
         };
-        let steps = steps(path, limits, &wheels, spacing_m);
+        let steps = steps(path, limits, &wheels, &spacing.into());
         let speeds = speeds(&steps, limits.max_acceleration_mps2);
         let mut time_s = 0.0;
+        let standing_s = |i: usize| steps.get(i).and_then(|step| step.stands_s).unwrap_or(0.0);
         let mut poses = vec![TimedPose {
             speed_mps: 0.0,
             time_s,
+            stands_s: standing_s(0),
         }];
-        for (step, pair) in steps.iter().zip(speeds.windows(2)) {
-            time_s += step.stands_s.unwrap_or(0.0);
+        for (i, (step, pair)) in steps.iter().zip(speeds.windows(2)).enumerate() {
+            time_s += standing_s(i);
             time_s += step.duration_s([pair[0], pair[1]], limits.max_acceleration_mps2);
             poses.push(TimedPose {
                 speed_mps: pair[1],
                 time_s,
+                stands_s: standing_s(i + 1),
             });
         }
         Self {
@@ -145,13 +159,13 @@ impl Wheels {
     }
 }
 
-fn steps(path: &CurvePath, limits: &SpeedLimits, wheels: &Wheels, spacing_m: f64) -> Vec<Step> {
+fn steps(path: &CurvePath, limits: &SpeedLimits, wheels: &Wheels, spacing: &Spacing) -> Vec<Step> {
     let mut steps = Vec::new();
     let mut before: Option<&CurveSegment> = None;
     for segment in path.segments() {
-        let n_steps = (segment.length_m / spacing_m).ceil().max(1.0);
-        let length_m = segment.length_m / n_steps;
-        for i in 0..n_steps as usize {
+        let n_steps = segment.n_steps(spacing);
+        let length_m = segment.length_m / n_steps as f64;
+        for i in 0..n_steps {
             let curvatures = [i, i + 1].map(|i| segment.curvature_at(i as f64 * length_m));
             let steepest = curvatures[0].abs().max(curvatures[1].abs());
             let lateral = (limits.max_lateral_mps2 / steepest).sqrt();
@@ -224,6 +238,7 @@ mod tests {
         Vehicle::new(VehicleParameters {
             speed_mps: Some(2.0),
             max_steer_rate_rad_per_s: steer_rate,
+            max_acceleration_mps2: None,
             ..Vehicle::lei2020().parameters().clone()
         })
         .unwrap()
@@ -250,6 +265,19 @@ mod tests {
         assert!((fastest - 2.0).abs() < 1e-12);
         assert_eq!(profile.poses.len(), path.sample(0.1).len());
         assert!(profile.poses.windows(2).all(|w| w[1].time_s > w[0].time_s));
+    }
+
+    #[test]
+    fn a_vehicle_accelerates_as_fast_as_it_says() {
+        let mut path = CurvePath::new(Pose2::default());
+        path.push(0.0, 10.0, Forward);
+        let sedate = Vehicle::new(VehicleParameters {
+            max_acceleration_mps2: Some(0.5),
+            ..car(None).parameters().clone()
+        });
+        // 4 s and 4 m to reach 2 m/s, the same to stop, 2 m at 2 m/s.
+        let profile = profile(&path, &sedate.unwrap());
+        assert!((profile.travel_time_s - 9.0).abs() < 1e-9, "{profile:?}");
     }
 
     #[test]

@@ -33,9 +33,9 @@ pub use config::ConfigError;
 #[cfg(feature = "serde")]
 pub use documents::{
     ANSWER_SCHEMA, Answer, AnswerContext, AnswerError, AnswerStatus, CertificateHashes,
-    CertificateNumbers, ColonyRecord, ConfigRecord, MapRecord, POSE_SPACING_M, PathDocument,
+    CertificateNumbers, ColonyRecord, ConfigRecord, KeepOutMapRecord, MapRecord, PathDocument,
     PoseRecord, Provenance, RequestDocument, SegmentRecord, SoftCostsRecord, StoredPath, Timing,
-    VehicleRecord, ViaRecord,
+    VehicleRecord, ViaRecord, are_samples_of,
 };
 pub use documents::{Collision, Disconnected, Explanation, Gap};
 pub use door::{Planner, plan};

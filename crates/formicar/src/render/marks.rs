@@ -183,8 +183,10 @@ impl Scene {
             x.contains(&p.x) && y.contains(&p.y) && p.heading.is_finite()
         };
         for &pose in poses.iter().filter(seen) {
-            let placed = vehicle.footprint().placed(pose);
-            path.polygon(placed.corners().iter().map(|&p| self.view.to_px(p)));
+            for part in vehicle.parts() {
+                let placed = part.placed(pose);
+                path.polygon(placed.corners().iter().map(|&p| self.view.to_px(p)));
+            }
         }
         path
     }

@@ -136,7 +136,9 @@ mod tests {
                 "{error}"
             );
         }
-        let unknown = error(&asking(None), &Vehicle::lei2020());
+        let mut of_unknown_rate = steered().parameters().clone();
+        of_unknown_rate.max_steer_rate_rad_per_s = None;
+        let unknown = error(&asking(None), &Vehicle::new(of_unknown_rate).unwrap());
         assert!(unknown.contains("max_steer_rate_rad_per_s"), "{unknown}");
         let point = error(&asking(Some(1.0)), &Vehicle::point());
         assert!(point.contains("point"), "{point}");

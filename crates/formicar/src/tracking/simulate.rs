@@ -305,7 +305,7 @@ impl Run {
         let driven = CurvePath::from_segments(first, mem::take(&mut self.driven));
         Tracking {
             status,
-            summary: self.summary(path, swept_area_m2(vehicle.footprint(), &driven)),
+            summary: self.summary(path, swept_area_m2(vehicle, &driven)),
             trace: self.trace,
             driven,
             config: self.config,

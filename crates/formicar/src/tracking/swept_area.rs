@@ -1,7 +1,8 @@
 //! The area that a footprint sweeps along a path.
 
-use crate::geometry::{ConvexPolygon, Point2, Pose2};
+use crate::geometry::{Point2, Pose2};
 use crate::path::CurvePath;
+use crate::vehicle::Vehicle;
 
 /// Rows across the smaller side of the footprint.
 const ROWS_PER_BODY: f64 = 256.0;
@@ -20,15 +21,24 @@ const ROW_HEADING_RAD: f64 = 0.7;
 /// along a line that is exact. The area of the union is a sum over rows 1/256 of that side apart:
 /// along each row the covered length is exact. The rows lie askew, so that few edges run along
 /// them. Measured on lines, rings and shunts whose area is known, the error is below 0.1 %.
-pub fn swept_area_m2(footprint: &ConvexPolygon, path: &CurvePath) -> f64 {
-    let (low, high) = footprint.bounds();
-    let side_m = (high.x - low.x).min(high.y - low.y);
-    let seen = |pose| footprint.placed(Pose2::new(0.0, 0.0, -ROW_HEADING_RAD).compose(pose));
-    let mut shapes = vec![seen(path.start()).corners().to_vec()];
-    for [from, to] in pieces(path, side_m, footprint.circumradius()) {
-        let (from, to) = (seen(from), seen(to));
-        let edges = from.edges().zip(to.edges());
-        shapes.extend(edges.flat_map(|(before, after)| swept_edge(before, after)));
+pub fn swept_area_m2(vehicle: &Vehicle, path: &CurvePath) -> f64 {
+    let footprint = vehicle.footprint();
+    let sides = vehicle.parts().iter().map(|part| {
+        let (low, high) = part.bounds();
+        (high.x - low.x).min(high.y - low.y)
+    });
+    let side_m = sides.fold(f64::INFINITY, f64::min);
+    let turned = |pose| Pose2::new(0.0, 0.0, -ROW_HEADING_RAD).compose(pose);
+    let pieces = pieces(path, side_m, footprint.circumradius());
+    let mut shapes = Vec::new();
+    for part in vehicle.parts() {
+        let seen = |pose| part.placed(turned(pose));
+        shapes.push(seen(path.start()).corners().to_vec());
+        for &[from, to] in &pieces {
+            let (from, to) = (seen(from), seen(to));
+            let edges = from.edges().zip(to.edges());
+            shapes.extend(edges.flat_map(|(before, after)| swept_edge(before, after)));
+        }
     }
     let (bottom, top) = shapes
         .iter()
@@ -165,12 +175,11 @@ fn section(shape: &[Point2], y: f64) -> Option<[f64; 2]> {
 mod tests {
     use super::*;
     use crate::path::Direction::{Forward, Reverse};
-    use crate::vehicle::Vehicle;
     use std::f64::consts::{PI, TAU};
 
     /// 3 x 1 m, 0.5 m of it behind the rear axle.
     fn area(path: &CurvePath) -> f64 {
-        swept_area_m2(Vehicle::lei2020().footprint(), path)
+        swept_area_m2(&Vehicle::lei2020(), path)
     }
 
     fn is(area: f64, exact: f64) {

@@ -38,7 +38,8 @@ pub struct Report {
     pub via_s_m: Vec<f64>,
     /// The violations, in order of arc length.
     pub violations: Vec<Violation>,
-    /// Doubts about the map file that the findings take at its word; none of most.
+    /// What the findings take as given, in words: doubts about the map file, and the ground that
+    /// keep-out maps close; none of most.
     #[cfg_attr(
         feature = "serde",
         serde(default, skip_serializing_if = "Vec::is_empty")
@@ -133,11 +134,11 @@ impl Violation {
 pub struct Certificate(Report);
 
 impl Report {
-    /// The same findings with doubts about the map file, which the judge does not see.
+    /// The same findings with what they take as given of the map, which the judge does not see.
     #[must_use]
-    pub fn assuming(self, warnings: &[String]) -> Self {
+    pub fn assuming(self, assumptions: &[String]) -> Self {
         Self {
-            assumptions: warnings.to_vec(),
+            assumptions: assumptions.to_vec(),
             ..self
         }
     }

@@ -44,6 +44,17 @@ pub enum VehicleError {
     /// The footprint is no convex polygon.
     #[error("vehicle footprint: {0}")]
     Footprint(#[from] PolygonError),
+    /// The body is given twice.
+    #[error("vehicle has a footprint and parts; hint: give one of them")]
+    FootprintAndParts,
+    /// A part of the body is no convex polygon, or cannot be read.
+    #[error("part {number}: {error}")]
+    Part {
+        /// Its number, the first is 1.
+        number: usize,
+        /// The problem.
+        error: Box<VehicleError>,
+    },
     /// The footprint string cannot be read.
     #[error("vehicle footprint: {0}")]
     FootprintText(String),

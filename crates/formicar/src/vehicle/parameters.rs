@@ -11,7 +11,8 @@ const POSITIVE: (Bound<f64>, Bound<f64>) = (Excluded(0.0), Excluded(1e6));
 parameters! {
     /// The measures of a vehicle, as in a vehicle file; [`super::Vehicle::new`] checks them.
     ///
-    /// Either the five lengths give a rectangle, or `footprint` gives any convex polygon. One of
+    /// Either the five lengths give a rectangle, or `footprint` gives any convex polygon, or `parts`
+    /// give a body of any shape. One of
     /// `max_steer_rad` (or `max_steer_deg`) and `min_turning_radius_m` sets the steering limit; where
     /// both stand they must agree to 1 %.
     #[derive(Default)]
@@ -42,6 +43,11 @@ parameters! {
         /// `"[[x1, y1], [x2, y2], ...]"`; at least 3 points, made convex.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub footprint: Option<FootprintSpec>,
+        /// The body as the union of polygons around the rear axle instead, for shapes that are not
+        /// convex, as L, U and T: lists of `[x, y]`, meters; each part is made convex, and parts may
+        /// overlap.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub parts: Option<Vec<FootprintSpec>>,
         /// Largest steering angle of the virtual middle wheel, radians.
         #[range((Excluded(0.0), Excluded(FRAC_PI_2)))]
         #[serde(alias = "max_steer", skip_serializing_if = "Option::is_none")]
@@ -70,6 +76,10 @@ parameters! {
         #[range(POSITIVE)]
         #[serde(alias = "speed", skip_serializing_if = "Option::is_none")]
         pub speed_mps: Option<f64>,
+        /// Largest acceleration and deceleration, m/s^2; taken as 1 where it is left out.
+        #[range(POSITIVE)]
+        #[serde(alias = "max_acceleration", skip_serializing_if = "Option::is_none")]
+        pub max_acceleration_mps2: Option<f64>,
     }
 }
 

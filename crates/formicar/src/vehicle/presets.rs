@@ -23,30 +23,40 @@ pub const PRESET_NAMES: [&str; 6] = [
 ];
 
 impl Vehicle {
-    /// The vehicle of Lei & Zheng 2020, sec. IV.B; its overhangs are our choice.
+    /// The vehicle of Lei & Zheng 2020, sec. IV.B; its overhangs and [`Pace`] are our choice.
     pub fn lei2020() -> Self {
-        let track_width_m = Some(0.8);
-        rectangle([2.0, 1.0, 0.5, 0.5], 40_f64.to_radians(), track_width_m)
+        let pace = Pace(1.0, 1.0, 0.5);
+        let car = rectangle([2.0, 1.0, 0.5, 0.5], 40_f64.to_radians(), pace);
+        made(VehicleParameters {
+            track_width_m: Some(0.8),
+            ..car
+        })
     }
 
-    /// A warehouse robot of 0.90 x 0.62 m: the default vehicle.
+    /// A warehouse robot of 0.90 x 0.62 m: the default vehicle. All of it is our choice.
     pub fn warehouse_amr() -> Self {
-        rectangle([0.65, 0.62, 0.125, 0.125], 40_f64.to_radians(), None)
+        let pace = Pace(1.0, 1.0, 0.5);
+        let steer_rad = 40_f64.to_radians();
+        made(rectangle([0.65, 0.62, 0.125, 0.125], steer_rad, pace))
     }
 
-    /// The 1:10 racing car of the F1TENTH series.
+    /// The 1:10 racing car of the F1TENTH series. Steering rate and acceleration are those of the
+    /// F1TENTH simulator (`sv_max`, `a_max`); its speed is our choice, a tenth of the simulator's.
     pub fn f1tenth() -> Self {
-        rectangle([0.33, 0.30, 0.09, 0.09], 0.4189, None)
+        let pace = Pace(3.2, 2.0, 9.51);
+        made(rectangle([0.33, 0.30, 0.09, 0.09], 0.4189, pace))
     }
 
-    /// The car of the TPCAP parking cases.
+    /// The car of the TPCAP parking cases, with the limits that the competition states.
     pub fn tpcap() -> Self {
-        rectangle([2.8, 1.942, 0.96, 0.929], 0.75, None)
+        let pace = Pace(0.5, 2.5, 1.0);
+        made(rectangle([2.8, 1.942, 0.96, 0.929], 0.75, pace))
     }
 
-    /// A middle-sized passenger car.
+    /// A middle-sized passenger car; its [`Pace`] is our choice, that of a car in a parking lot.
     pub fn sedan() -> Self {
-        rectangle([2.8, 1.8, 0.9, 1.0], 35_f64.to_radians(), None)
+        let pace = Pace(0.6, 2.0, 1.0);
+        made(rectangle([2.8, 1.8, 0.9, 1.0], 35_f64.to_radians(), pace))
     }
 
     /// A built-in vehicle by name.
@@ -68,19 +78,28 @@ impl Vehicle {
     }
 }
 
+/// Steering rate, rad/s; top speed, m/s; acceleration, m/s^2.
+#[derive(Clone, Copy)]
+struct Pace(f64, f64, f64);
+
 /// `[wheelbase, width, front overhang, rear overhang]`, meters.
-fn rectangle(lengths: [f64; 4], max_steer_rad: f64, track_width_m: Option<f64>) -> Vehicle {
+fn rectangle(lengths: [f64; 4], max_steer_rad: f64, pace: Pace) -> VehicleParameters {
     let [wheelbase_m, width_m, front_overhang_m, rear_overhang_m] = lengths.map(Some);
-    Vehicle::new(VehicleParameters {
+    VehicleParameters {
         wheelbase_m,
         width_m,
         front_overhang_m,
         rear_overhang_m,
-        track_width_m,
         max_steer_rad: Some(max_steer_rad),
+        max_steer_rate_rad_per_s: Some(pace.0),
+        speed_mps: Some(pace.1),
+        max_acceleration_mps2: Some(pace.2),
         ..VehicleParameters::default()
-    })
-    .expect("preset measures are in range")
+    }
+}
+
+fn made(parameters: VehicleParameters) -> Vehicle {
+    Vehicle::new(parameters).expect("preset measures are in range")
 }
 
 #[cfg(test)]

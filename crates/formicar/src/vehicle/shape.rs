@@ -1,6 +1,6 @@
 //! A checked vehicle: footprint, steering limit, and what both imply.
 
-use super::{VehicleError, VehicleParameters};
+use super::{FootprintSpec, VehicleError, VehicleParameters};
 use crate::geometry::{ConvexPolygon, Point2};
 use crate::parameters::OutOfRange;
 use std::f64::consts::FRAC_PI_2;
@@ -50,6 +50,8 @@ pub struct Vehicle {
     parameters: VehicleParameters,
     motion: Motion,
     footprint: ConvexPolygon,
+    /// The body itself: the footprint, or the parts whose hull that is.
+    parts: Vec<ConvexPolygon>,
     max_curvature_per_m: f64,
 }
 
@@ -61,24 +63,29 @@ impl Vehicle {
     pub fn new(parameters: VehicleParameters) -> Result<Self, VehicleError> {
         check_turning(&parameters)?;
         parameters.check()?;
-        let body = body(&parameters)?;
-        check_track(&parameters, &body)?;
-        let footprint = body.grown(parameters.safety_margin_m.unwrap_or(0.0));
+        let parts = parts(&parameters)?;
+        check_track(&parameters, &hull(&parts)?)?;
+        let margin_m = parameters.safety_margin_m.unwrap_or(0.0);
+        let parts: Vec<_> = parts.iter().map(|part| part.grown(margin_m)).collect();
+        let footprint = hull(&parts)?;
         let max_curvature_per_m = 1.0 / turning_radius(&parameters)?;
         Ok(Self {
             parameters,
             motion: Motion::Car,
             footprint,
+            parts,
             max_curvature_per_m,
         })
     }
 
     /// A holonomic point, for bare grid problems.
     pub fn point() -> Self {
+        let footprint = ConvexPolygon::rectangle(Point2::default(), Point2::default());
         Self {
             parameters: VehicleParameters::default(),
             motion: Motion::Point,
-            footprint: ConvexPolygon::rectangle(Point2::default(), Point2::default()),
+            parts: vec![footprint.clone()],
+            footprint,
             max_curvature_per_m: f64::INFINITY,
         }
     }
@@ -108,9 +115,39 @@ impl Vehicle {
         self.motion
     }
 
-    /// The body with its safety margin, around the rear-axle center, x forward, y left, meters.
+    /// The body with its safety margin, around the rear-axle center, x forward, y left, meters; of
+    /// a body in parts, their convex hull.
     pub fn footprint(&self) -> &ConvexPolygon {
         &self.footprint
+    }
+
+    /// The convex parts of which the body with its safety margin is the union; mostly one, the
+    /// [footprint](Self::footprint).
+    ///
+    /// ```
+    /// use formicar::vehicle::FootprintSpec;
+    /// use formicar::{Vehicle, VehicleParameters};
+    ///
+    /// let mast = FootprintSpec::Points(vec![[0.8, -0.1], [1.4, -0.1], [1.4, 0.1], [0.8, 0.1]]);
+    /// let body = FootprintSpec::Points(vec![[-0.2, -0.4], [0.8, -0.4], [0.8, 0.4], [-0.2, 0.4]]);
+    /// let vehicle = Vehicle::new(VehicleParameters {
+    ///     parts: Some(vec![body, mast]),
+    ///     min_turning_radius_m: Some(1.0),
+    ///     ..VehicleParameters::default()
+    /// })?;
+    /// assert_eq!(vehicle.parts().len(), 2);
+    /// assert_eq!(vehicle.footprint().corners().len(), 6);
+    /// # Ok::<(), formicar::VehicleError>(())
+    /// ```
+    pub fn parts(&self) -> &[ConvexPolygon] {
+        &self.parts
+    }
+
+    /// The largest radius of a disc about the rear-axle center that stays inside a part of the
+    /// body, meters; negative where the axle is outside of all.
+    pub fn inradius_m(&self) -> f64 {
+        let inside = self.parts.iter().map(ConvexPolygon::inradius);
+        inside.fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// Width of the body with its safety margin, meters; 0 for a point.
@@ -161,13 +198,18 @@ impl Vehicle {
         [wheelbase_m, (wheelbase_m / radius_m).atan()]
     }
 
-    /// A 128-bit hash of what the judge uses: motion, footprint and curvature limit.
+    /// A 128-bit hash of what the judge uses: motion, body and curvature limit.
     pub fn hash(&self) -> u128 {
         let mut bytes = vec![self.motion as u8];
         bytes.extend(self.max_curvature_per_m.to_le_bytes());
-        for corner in self.footprint.corners() {
-            bytes.extend(corner.x.to_le_bytes());
-            bytes.extend(corner.y.to_le_bytes());
+        for (i, part) in self.parts.iter().enumerate() {
+            if i > 0 {
+                bytes.push(b'+');
+            }
+            for corner in part.corners() {
+                bytes.extend(corner.x.to_le_bytes());
+                bytes.extend(corner.y.to_le_bytes());
+            }
         }
         xxh3_128(&bytes)
     }
@@ -198,14 +240,51 @@ fn check_track(p: &VehicleParameters, body: &ConvexPolygon) -> Result<(), Vehicl
     }
 }
 
-fn body(p: &VehicleParameters) -> Result<ConvexPolygon, VehicleError> {
-    if let Some(spec) = &p.footprint {
-        let points = spec.points().map_err(VehicleError::FootprintText)?;
-        if points.len() < 3 || points.iter().any(|p| !p.is_finite()) {
-            return Ok(ConvexPolygon::new(&points)?);
+/// The most parts that a body may have; every distance is that of each.
+const MAX_PARTS: usize = 64;
+
+/// The convex parts of the body, without its safety margin.
+fn parts(p: &VehicleParameters) -> Result<Vec<ConvexPolygon>, VehicleError> {
+    match (&p.footprint, &p.parts) {
+        (Some(_), Some(_)) => Err(VehicleError::FootprintAndParts),
+        (Some(spec), None) => Ok(vec![polygon(spec)?]),
+        (None, Some(specs)) if (1..=MAX_PARTS).contains(&specs.len()) => {
+            let part = |(i, spec)| {
+                polygon(spec).map_err(|error| VehicleError::Part {
+                    number: i + 1,
+                    error: Box::new(error),
+                })
+            };
+            specs.iter().enumerate().map(part).collect()
         }
-        return Ok(ConvexPolygon::hull(&points)?);
+        (None, Some(specs)) => Err(VehicleError::OutOfRange(OutOfRange {
+            key: "number of parts".to_owned(),
+            value: specs.len() as f64,
+            range: format!("1 to {MAX_PARTS}"),
+        })),
+        (None, None) => Ok(vec![rectangle(p)?]),
     }
+}
+
+/// The convex hull of parts; a single part as it stands.
+fn hull(parts: &[ConvexPolygon]) -> Result<ConvexPolygon, VehicleError> {
+    if let [only] = parts {
+        return Ok(only.clone());
+    }
+    let corners = parts.iter().flat_map(ConvexPolygon::corners);
+    let corners: Vec<_> = corners.copied().collect();
+    Ok(ConvexPolygon::hull(&corners)?)
+}
+
+fn polygon(spec: &FootprintSpec) -> Result<ConvexPolygon, VehicleError> {
+    let points = spec.points().map_err(VehicleError::FootprintText)?;
+    if points.len() < 3 || points.iter().any(|p| !p.is_finite()) {
+        return Ok(ConvexPolygon::new(&points)?);
+    }
+    Ok(ConvexPolygon::hull(&points)?)
+}
+
+fn rectangle(p: &VehicleParameters) -> Result<ConvexPolygon, VehicleError> {
     let needed = |name, value: Option<f64>| {
         let hint =
             "give wheelbase_m, width_m, front_overhang_m and rear_overhang_m, or a footprint";
@@ -367,6 +446,39 @@ mod tests {
             error.contains("rear_overhang_m") && error.contains("-1.5"),
             "{error}"
         );
+    }
+
+    #[test]
+    fn a_body_in_parts_is_hashed_and_grown_part_by_part() {
+        let with = |parts: &str| {
+            let json = format!(r#"{{"parts": {parts}, "min_turning_radius_m": 1.0}}"#);
+            Vehicle::new(serde_json::from_str(&json).unwrap())
+        };
+        let l = "[[[0, 0], [2, 0], [2, 1], [0, 1]], [[0, 0], [1, 0], [1, 2], [0, 2]]]";
+        let l = with(l).unwrap();
+        assert_eq!((l.parts().len(), l.footprint().area()), (2, 3.5));
+        let grown = l.with_safety_margin(0.1).unwrap();
+        assert!((grown.parts()[0].area() - 2.2 * 1.2).abs() < 1e-12);
+        let square = with("[[[0, 0], [2, 0], [2, 2], [0, 2]]]").unwrap();
+        let same =
+            r#"{"footprint": [[0, 0], [2, 0], [2, 2], [0, 2]], "min_turning_radius_m": 1.0}"#;
+        let same = Vehicle::new(serde_json::from_str(same).unwrap()).unwrap();
+        assert_eq!(square.hash(), same.hash());
+        assert_ne!(l.hash(), grown.hash());
+        for (bad, told) in [
+            ("[]", "number of parts"),
+            ("[[[0, 0], [1, 0]]]", "part 1"),
+            (
+                "[[[0, 0], [1, 0], [1, 1]], [[0, 0], [1, 0], [2, 0]]]",
+                "part 2",
+            ),
+        ] {
+            let error = with(bad).unwrap_err().to_string();
+            assert!(error.contains(told), "{error}");
+        }
+        let both = r#"{"footprint": [[0, 0], [2, 0], [2, 2]], "parts": [], "r_min": 1.0}"#;
+        let both = Vehicle::new(serde_json::from_str(both).unwrap()).unwrap_err();
+        assert!(both.to_string().contains("hint"), "{both}");
     }
 
     #[test]

@@ -5,6 +5,7 @@ use crate::scene::SceneArgs;
 use crate::values;
 use clap::{Args, ValueHint};
 use formicar::geometry::Pose2;
+use formicar::path::Spacing;
 use formicar::planner::PlannerName;
 use formicar::scenario::{GoalTolerance, ViaPoint};
 use std::path::PathBuf;
@@ -95,6 +96,11 @@ pub(crate) struct PlanArgs {
     /// Write the answer (.json) or the poses of the path (.csv); may be repeated.
     #[arg(long, value_name = "F.json|F.csv", value_hint = ValueHint::FilePath, conflicts_with = "stdin")]
     pub(crate) out: Vec<PathBuf>,
+
+    /// Most meters and radians (or 10deg) between two poses of the path; 0.1,0.2 by default. Both
+    /// ends of every segment are always among them.
+    #[arg(long, value_name = "M[,RAD]", value_parser = values::spacing, allow_hyphen_values = true)]
+    pub(crate) spacing: Option<Spacing>,
 
     /// Write a picture.
     #[arg(long, value_name = "F.svg|F.png", value_hint = ValueHint::FilePath, conflicts_with = "stdin")]

@@ -50,6 +50,7 @@ pub(crate) fn run(args: &PlanArgs, out: &mut impl Write) -> Result<Ending, Failu
     let defaults = request(args, &scene);
     let n_threads = args.threads.map_or(1, |n| n as usize);
     let mut session = Session::new(scene, config, begun)?.with_threads(n_threads);
+    session.spacing = args.spacing.unwrap_or_default();
     if let Some(costs) = soft_costs {
         session.planner = session.planner.with_soft_costs(&costs);
     }

@@ -45,6 +45,15 @@ pub(super) fn caption(driven: &Driven) -> String {
     )
 }
 
+/// Advice where wheels that take their time were to jump.
+fn hint(driven: &Driven) -> Option<&'static str> {
+    let is_steered = driven.drive.config.max_steer_rate_rad_per_s.is_some();
+    let is_lost = verdict(driven) != "tracked";
+    (is_lost && is_steered && !driven.report.is_curvature_continuous).then_some(
+        "the curvature of the path jumps, and these wheels take their time; plan with --continuous-curvature, or drive slower (--speed)",
+    )
+}
+
 /// Writes verdict, errors, wheels and clearance, a line each.
 pub(super) fn explain(driven: &Driven, out: &mut impl Write) -> io::Result<()> {
     let summary = &driven.drive.summary;
@@ -88,7 +97,11 @@ pub(super) fn explain(driven: &Driven, out: &mut impl Write) -> io::Result<()> {
         "body       {}, swept {:.1} m2",
         nearest(driven),
         summary.swept_area_m2,
-    )
+    )?;
+    match hint(driven) {
+        Some(hint) => writeln!(out, "hint       {hint}"),
+        None => Ok(()),
+    }
 }
 
 /// The least distance of the body from obstacles.

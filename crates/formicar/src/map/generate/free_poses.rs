@@ -30,7 +30,7 @@ pub fn free_pose_pairs(
         frame: map.frame(),
         lethal: map.lethal_cells(),
         main: main_component(map).iter().collect(),
-        footprint: vehicle.footprint(),
+        parts: vehicle.parts(),
     };
     let mut pairs = Vec::new();
     for i in 0..n_pairs {
@@ -51,7 +51,7 @@ struct PoseSampler<'a> {
     frame: &'a GridFrame,
     lethal: BitGrid,
     main: Vec<Cell>,
-    footprint: &'a ConvexPolygon,
+    parts: &'a [ConvexPolygon],
 }
 
 impl PoseSampler<'_> {
@@ -81,7 +81,13 @@ impl PoseSampler<'_> {
     }
 
     fn stands_free(&self, pose: Pose2) -> bool {
-        let body = self.footprint.placed(self.frame.to_grid(pose));
+        self.parts
+            .iter()
+            .all(|part| self.part_stands_free(part, pose))
+    }
+
+    fn part_stands_free(&self, part: &ConvexPolygon, pose: Pose2) -> bool {
+        let body = part.placed(self.frame.to_grid(pose));
         let (low, high) = body.bounds();
         let size = self.frame.extent_m();
         if low.x < 0.0 || low.y < 0.0 || high.x > size.x || high.y > size.y {

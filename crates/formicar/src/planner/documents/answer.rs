@@ -4,12 +4,13 @@ use super::path_document::PathDocument;
 use super::{Explanation, RequestDocument};
 use crate::map::GridFrame;
 use crate::metrics::PathMetrics;
-use crate::numeric::Seed;
+use crate::numeric::{Seed, counted};
+use crate::path::Spacing;
 use crate::planner::{NotFound, Outcome, Plan, PlanError, Planner, PlannerConfig, Stages};
 use crate::progress::{IterationRecord, Status, Stop};
 use crate::scenario::{ErrorCode, Request};
 use crate::validation::Report;
-use crate::vehicle::{Motion, VehicleParameters};
+use crate::vehicle::{Motion, Vehicle, VehicleParameters};
 
 /// Name and version of the answer document.
 pub const ANSWER_SCHEMA: &str = "formicar/answer/1";
@@ -41,6 +42,9 @@ pub struct Answer {
     /// missing where it ceased to gain.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cut_by: Option<Status>,
+    /// Remarks on the path found that its driver should know, in words; none of most.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
     /// The planner asked.
     pub planner: String,
     /// The seed it was given.
@@ -210,6 +214,9 @@ pub struct MapRecord {
     pub unknown: String,
     /// Areas closed for the vehicle, as corners `[x m, y m]`.
     pub keep_out: Vec<Vec<[f64; 2]>>,
+    /// Maps whose occupied cells close ground for the vehicle.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub keep_out_maps: Vec<KeepOutMapRecord>,
     /// Doubts about the file, in words; none of most.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<String>,
@@ -219,6 +226,13 @@ pub struct MapRecord {
 }
 
 impl MapRecord {
+    /// What findings on this map take as given, in words: doubts about its file, and the ground
+    /// that other maps close.
+    pub fn assumptions(&self) -> Vec<String> {
+        let closed = self.keep_out_maps.iter().map(KeepOutMapRecord::in_words);
+        self.warnings.iter().cloned().chain(closed).collect()
+    }
+
     /// The same source with size and place of a frame.
     #[must_use]
     pub fn on(&self, frame: &GridFrame) -> Self {
@@ -230,6 +244,24 @@ impl MapRecord {
             origin: [origin.x, origin.y, origin.heading],
             ..self.clone()
         }
+    }
+}
+
+/// A map that closes ground.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct KeepOutMapRecord {
+    /// File.
+    pub name: String,
+    /// Cells of the planner's map on which its occupied cells lie.
+    pub n_cells: usize,
+}
+
+impl KeepOutMapRecord {
+    /// The same as a clause.
+    pub fn in_words(&self) -> String {
+        let cells = counted(self.n_cells, "cell");
+        format!("the keep-out map {} closes {cells}", self.name)
     }
 }
 
@@ -264,6 +296,8 @@ pub struct AnswerContext<'a> {
     pub map: MapRecord,
     /// The vehicle's preset or file name.
     pub vehicle_name: &'a str,
+    /// How close the poses of a path lie.
+    pub spacing: Spacing,
 }
 
 impl AnswerContext<'_> {
@@ -306,11 +340,21 @@ impl AnswerContext<'_> {
             status: AnswerStatus::Found,
             code: ErrorCode::None,
             code_number: ErrorCode::None.number(),
-            certificate: Some((*plan.certificate).clone().assuming(&self.map.warnings)),
+            certificate: Some(
+                (*plan.certificate)
+                    .clone()
+                    .assuming(&self.map.assumptions()),
+            ),
             metrics: Some(plan.metrics.clone()),
             cut_by: plan.cut_by,
+            notes: notes(plan, vehicle),
             colony: ColonyRecord::new(&plan.stages),
-            path: Some(PathDocument::new(&plan.path, obstacles, vehicle)),
+            path: Some(PathDocument::new(
+                &plan.path,
+                obstacles,
+                vehicle,
+                self.spacing,
+            )),
             ..blank
         }
     }
@@ -326,6 +370,7 @@ impl AnswerContext<'_> {
             reason: None,
             explanation: None,
             cut_by: None,
+            notes: Vec::new(),
             planner: self.planner.name().to_owned(),
             seed: seed.0,
             certificate: None,
@@ -354,6 +399,18 @@ impl AnswerContext<'_> {
                 .map(|config| ConfigRecord::Known(Box::new(config.clone()))),
         }
     }
+}
+
+fn notes(plan: &Plan, vehicle: &Vehicle) -> Vec<String> {
+    let n_jumps = plan.metrics.n_curvature_jumps;
+    let stands = n_jumps > 0 && vehicle.parameters().max_steer_rate_rad_per_s.is_some();
+    let places = counted(n_jumps, "place");
+    let standing = stands.then(|| {
+        format!(
+            "the curvature jumps at {places}, where the vehicle has to stop to turn its wheels; hint: ask for continuous curvature (--continuous-curvature)"
+        )
+    });
+    standing.into_iter().collect()
 }
 
 fn not_found(failure: &NotFound, blank: Answer) -> Answer {

@@ -6,6 +6,8 @@ mod explanation;
 #[cfg(feature = "serde")]
 mod path_document;
 #[cfg(feature = "serde")]
+mod recorded_poses;
+#[cfg(feature = "serde")]
 mod request_document;
 #[cfg(feature = "serde")]
 mod stored_path;
@@ -14,12 +16,14 @@ mod via_record;
 
 #[cfg(feature = "serde")]
 pub use answer::{
-    ANSWER_SCHEMA, Answer, AnswerContext, AnswerStatus, ColonyRecord, ConfigRecord, MapRecord,
-    Provenance, SoftCostsRecord, Timing, VehicleRecord,
+    ANSWER_SCHEMA, Answer, AnswerContext, AnswerStatus, ColonyRecord, ConfigRecord,
+    KeepOutMapRecord, MapRecord, Provenance, SoftCostsRecord, Timing, VehicleRecord,
 };
 pub use explanation::{Collision, Disconnected, Explanation, Gap};
 #[cfg(feature = "serde")]
-pub use path_document::{POSE_SPACING_M, PathDocument, PoseRecord, SegmentRecord};
+pub use path_document::{PathDocument, PoseRecord, SegmentRecord};
+#[cfg(feature = "serde")]
+pub use recorded_poses::are_samples_of;
 #[cfg(feature = "serde")]
 pub use request_document::RequestDocument;
 #[cfg(feature = "serde")]

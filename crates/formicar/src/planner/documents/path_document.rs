@@ -2,18 +2,18 @@
 
 use crate::collision::{Body, ObstacleMap};
 use crate::geometry::{Pose2, wrap_angle};
-use crate::path::{CurvePath, CurveSegment, Direction, SpeedLimits, SpeedProfile, TimedPose};
+use crate::path::{
+    CurvePath, CurveSegment, Direction, Spacing, SpeedLimits, SpeedProfile, TimedPose,
+};
 use crate::vehicle::Vehicle;
 use std::fmt::Write;
-
-/// Greatest distance between two poses of a written path, meters.
-pub const POSE_SPACING_M: f64 = 0.1;
 
 /// A path, world coordinates.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PathDocument {
-    /// Poses at most 0.1 m apart, with both ends of every segment.
+    /// Poses at most 0.1 m and 0.2 rad apart unless asked otherwise, with both ends of every
+    /// segment; where the gear changes, one pose in each gear.
     pub poses: Vec<PoseRecord>,
     /// The path itself, exactly.
     pub segments: Vec<SegmentRecord>,
@@ -31,7 +31,8 @@ pub struct PoseRecord {
     pub heading: f64,
     /// Arc length driven so far, meters.
     pub s: f64,
-    /// Gear in which the pose is reached: 1 forward, -1 in reverse.
+    /// Gear in which the pose is reached: 1 forward, -1 in reverse. Where it changes, the pose
+    /// stands twice: as it is reached, and as it is left.
     #[cfg_attr(feature = "schema", schemars(with = "i8"))]
     pub direction: Direction,
     /// tan(steer) / wheelbase where the pose is reached, 1/m, positive left.
@@ -80,15 +81,22 @@ fn is_zero(number: &f64) -> bool {
 }
 
 impl PathDocument {
-    /// A path in world coordinates, measured against a map with a vehicle.
-    pub fn new(path: &CurvePath, obstacles: &ObstacleMap, vehicle: &Vehicle) -> Self {
+    /// A path in world coordinates, measured against a map with a vehicle; its poses lie no farther
+    /// apart than the spacing.
+    pub fn new(
+        path: &CurvePath,
+        obstacles: &ObstacleMap,
+        vehicle: &Vehicle,
+        spacing: impl Into<Spacing>,
+    ) -> Self {
+        let spacing = spacing.into();
         let body = Body::new(vehicle);
-        let timed = timed(path, vehicle);
-        let poses = path
-            .sample(POSE_SPACING_M)
-            .into_iter()
-            .enumerate()
-            .map(|(i, at)| PoseRecord {
+        let timed = timed(path, vehicle, spacing);
+        let mut after_cusps = after_cusps(path, &spacing).peekable();
+        let mut poses = Vec::new();
+        for (i, at) in path.sample(spacing).into_iter().enumerate() {
+            let timed = timed.get(i);
+            let reached = PoseRecord {
                 x: at.pose.x,
                 y: at.pose.y,
                 heading: wrap_angle(at.pose.heading),
@@ -97,11 +105,22 @@ impl PathDocument {
                 curvature: at.curvature_per_m,
                 steer: vehicle.steer_rad(at.curvature_per_m),
                 clearance: obstacles.clearance_m(&body, obstacles.frame().to_grid(at.pose)),
-                speed: timed.get(i).map(|timed| timed.speed_mps),
-                time: timed.get(i).map(|timed| timed.time_s),
+                speed: timed.map(|timed| timed.speed_mps),
+                time: timed.map(|timed| timed.time_s),
+            };
+            let left = after_cusps.next_if(|(cusp, _)| *cusp == i);
+            let left = left.map(|(_, next)| PoseRecord {
+                direction: next.direction,
+                curvature: next.curvature_per_m,
+                steer: vehicle.steer_rad(next.curvature_per_m),
+                time: timed.map(|timed| timed.time_s + timed.stands_s),
+                ..reached.clone()
             });
+            poses.push(reached);
+            poses.extend(left);
+        }
         Self {
-            poses: poses.collect(),
+            poses,
             segments: path.segments().iter().map(SegmentRecord::from).collect(),
         }
     }
@@ -138,10 +157,22 @@ impl PathDocument {
     }
 }
 
-/// Speed and time at each pose; none where the vehicle does not say how fast it drives.
-fn timed(path: &CurvePath, vehicle: &Vehicle) -> Vec<TimedPose> {
+/// The segments that begin with a change of gear, each with the index of the sample there.
+fn after_cusps<'a>(
+    path: &'a CurvePath,
+    spacing: &Spacing,
+) -> impl Iterator<Item = (usize, &'a CurveSegment)> {
+    let mut index = 0;
+    path.segments().windows(2).filter_map(move |pair| {
+        index += pair[0].n_steps(spacing);
+        (pair[0].direction != pair[1].direction).then_some((index, &pair[1]))
+    })
+}
+
+/// Speed and time at each sample; none where the vehicle does not say how fast it drives.
+fn timed(path: &CurvePath, vehicle: &Vehicle, spacing: Spacing) -> Vec<TimedPose> {
     SpeedLimits::of(vehicle).map_or_else(Vec::new, |limits| {
-        SpeedProfile::new(path, vehicle, &limits, POSE_SPACING_M).poses
+        SpeedProfile::new(path, vehicle, &limits, spacing).poses
     })
 }
 

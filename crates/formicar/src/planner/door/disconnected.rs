@@ -32,7 +32,7 @@ impl AxleGround {
         vehicle: &Vehicle,
         limits: &mut Limits,
     ) -> Result<Self, Status> {
-        let inradius_m = vehicle.footprint().inradius();
+        let inradius_m = vehicle.inradius_m();
         let disc_radius_m = inradius_m.max(0.0);
         // Only what blocks a position wherever it lies in its cell: from the cell's center to the
         // position half a diagonal, from the obstacle's center to its side half a cell.

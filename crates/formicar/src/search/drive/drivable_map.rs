@@ -144,7 +144,7 @@ impl DrivableMap {
 /// leaves gaps that are wide enough to drive straight; and the least distance of the rear axle from
 /// any obstacle, which closes no gap wrongly.
 fn inflations_m(body: &Body, vehicle: &Vehicle) -> [f64; 4] {
-    let sure = vehicle.footprint().inradius().max(0.0);
+    let sure = vehicle.inradius_m().max(0.0);
     let wide = body.inner_radius_m().max(sure);
     let turning = 0.5 * body.swept_width_m(vehicle.min_turning_radius_m());
     let between = 0.5 * (wide + turning.max(wide));
