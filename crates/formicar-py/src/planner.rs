@@ -143,7 +143,10 @@ impl Planner {
         let costs = soft_costs.map(|costs| (costs, manner.soft_weight));
         let costs = costs.map(|costs| self.soft_costs(&costs)).transpose()?;
         let closed = match manner.keep_out {
-            Some(areas) if !areas.is_empty() => Some(self.grid(py)?.get().with_keep_out(areas)?),
+            Some(areas) if !areas.is_empty() => {
+                let grid = self.grid(py)?;
+                Some(py.detach(|| grid.get().with_keep_out(areas))?)
+            }
             _ => None,
         };
         let frame = self.grid.get().map.frame();

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 from typing import Any
 
 import numpy as np
@@ -177,3 +179,12 @@ def test_curves_refuse_what_they_cannot_join() -> None:
     with pytest.raises(TypeError, match="Dubins"):
         formicar.Curve((0, 0, 0), (1, 1, 1), 1.0)
     assert np.isnan(Dubins.distance((0, 0, 0), (float("nan"), 0, 0), 1.0))
+
+
+def test_curves_survive_pickling_and_copies() -> None:
+    for kind in (Dubins, ReedsShepp):
+        ends = ((0.0, 0.0, 0.0), (3.0, 3.0, 1.0))
+        for curve in (kind(*ends, 1.0), *kind.candidates(*ends, 1.0)):
+            for other in (pickle.loads(pickle.dumps(curve)), copy.deepcopy(curve)):
+                assert type(other) is kind and other.end == curve.end
+                np.testing.assert_array_equal(other.arcs, curve.arcs)

@@ -360,3 +360,13 @@ def test_lists_of_planners_and_parameters() -> None:
     assert list(formicar.planners())[0] == "formicar"
     keys = [parameter["key"] for parameter in formicar.parameters()]
     assert "hybrid_astar.weight" in keys and "colony.n_ants" in keys
+
+
+def test_wrong_kinds_of_arguments_are_named(planner: Planner) -> None:
+    ends: Any = ((2.0, 2.0, 0.0), (10.0, 2.0, 0.0))
+    with pytest.raises(formicar.InvalidRequest, match="deadline_s = '1'"):
+        planner.plan(*ends, deadline_s="1")  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="previous is of type int; expected a Plan"):
+        planner.replan(START, GOAL, 3)  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="hint: 'seed'"):
+        formicar.tune(lambda values: 1.0, {"a": (0.0, 1.0)}, sed=1)  # type: ignore[call-arg]

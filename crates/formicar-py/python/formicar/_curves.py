@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from . import _formicar
 from ._arrays import frozen, pose_of, rows_of
@@ -33,6 +33,8 @@ class Curve:
 
     _reverses: ClassVar[bool]
     _core: _formicar.BoundedCurve
+    # The arguments, and the place among the candidates; none for the shortest.
+    _made_of: tuple[Pose, Pose, float, int | None]
 
     def __init__(self, start: ArrayLike, goal: ArrayLike, radius: float) -> None:
         if type(self) is Curve:
@@ -42,15 +44,18 @@ class Curve:
         if core is None:
             raise InvalidPath("no curve between these poses; hint: coordinates below 1e9 m")
         self._core = core
+        self._made_of = (*ends, float(radius), None)
 
     @classmethod
     def candidates(cls, start: ArrayLike, goal: ArrayLike, radius: float) -> list[Self]:
         """Return the curves of all words that reach the goal, shortest first."""
         ends = (pose_of(start, "start", InvalidPath), pose_of(goal, "goal", InvalidPath))
         found = []
-        for core in _formicar.BoundedCurve.candidates(cls._reverses, *ends, float(radius)):
+        cores = _formicar.BoundedCurve.candidates(cls._reverses, *ends, float(radius))
+        for place, core in enumerate(cores):
             curve = cls.__new__(cls)
             curve._core = core
+            curve._made_of = (*ends, float(radius), place)
             found.append(curve)
         return found
 
@@ -112,6 +117,9 @@ class Curve:
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.length:.3f} m, {len(self.arcs)} arcs)"
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_curve_of, (type(self), *self._made_of))
+
 
 class Dubins(Curve):
     """The shortest curve of bounded curvature, forward only.
@@ -151,3 +159,11 @@ class ReedsShepp(Curve):
     """
 
     _reverses = True
+
+
+def _curve_of(
+    kind: type[Curve], start: Pose, goal: Pose, radius: float, place: int | None
+) -> Curve:
+    if place is None:
+        return kind(start, goal, radius)
+    return kind.candidates(start, goal, radius)[place]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, Literal, SupportsIndex
+from typing import TYPE_CHECKING, Any, Literal, SupportsFloat, SupportsIndex
 
 from . import _formicar
 from ._arrays import plain
@@ -272,6 +272,8 @@ class Planner:
             via=via,
             continuous_curvature=False,
         )
+        if not isinstance(previous, Plan):
+            raise TypeError(f"previous is of type {type(previous).__name__}; expected a Plan")
         return self._ask(request, seed, None, None, 3.0, False, on_progress, previous._core)
 
     def _ask(
@@ -436,11 +438,11 @@ def request_of(
     several = _is_nested(goal)
     request["goals" if several else "goal"] = goal
     if deadline_s is not None:
-        if not 0 < deadline_s <= 3e7:
+        if not isinstance(deadline_s, SupportsFloat) or not 0 < float(deadline_s) <= 3e7:
             raise InvalidRequest(
-                f"deadline_s = {deadline_s}; it must be above 0 and at most 3e7 seconds"
+                f"deadline_s = {deadline_s!r}; it must be above 0 and at most 3e7 seconds"
             )
-        request["deadline_ms"] = deadline_s * 1e3
+        request["deadline_ms"] = float(deadline_s) * 1e3
     if budget is not None:
         if isinstance(budget, bool) or not 0 <= _index(budget, "budget") < 2**64:
             raise InvalidRequest(f"budget = {budget!r}; it must be a whole number from 0 on")

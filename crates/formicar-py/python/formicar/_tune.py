@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from . import _formicar
 from ._arrays import frozen
 from ._formicar import ConfigError
+from ._hints import suggests
 from ._lazy import np
 
 if TYPE_CHECKING:
@@ -93,6 +94,7 @@ Dimension = Real | Integer | Choice
 Evaluate = Callable[[list[dict[str, Any]]], Sequence[float]]
 
 
+@suggests
 def tune(
     objective: Callable[[dict[str, Any]], float],
     space: Mapping[str, Any],
