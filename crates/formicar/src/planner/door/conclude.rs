@@ -39,6 +39,7 @@ pub(super) fn conclude(
                 certificate,
                 n_steps,
                 cut_by,
+                escape: None,
             }))
         }
         Err(report) => {
