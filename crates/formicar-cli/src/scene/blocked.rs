@@ -3,7 +3,7 @@
 use super::closed::Closed;
 use formicar::map::{Cell, DistanceField, OCCUPIED, OccupancyGrid, UNKNOWN, UnknownPolicy};
 use formicar::planner::Explanation;
-use formicar::scenario::{Endpoint, ScenarioError};
+use formicar::scenario::{Endpoint, ScenarioError, StartContact};
 use formicar::search::widest_passage;
 use formicar::vehicle::Vehicle;
 
@@ -56,7 +56,7 @@ impl Blocked {
     }
 
     /// The same error with what the body overlaps called by its name.
-    pub(crate) fn named(&self, error: ScenarioError) -> ScenarioError {
+    pub(crate) fn named(&self, error: ScenarioError, contact: StartContact) -> ScenarioError {
         let ScenarioError::Occupied {
             which,
             x,
@@ -79,8 +79,8 @@ impl Blocked {
             0 => "",
             _ => "; --unknown free drives on unknown ground",
         };
-        let escape = match which {
-            Endpoint::Start => "; --escape drives out of contact first",
+        let escape = match (which, contact) {
+            (Endpoint::Start, StartContact::Refuse) => "; --escape drives out of contact first",
             _ => "",
         };
         let (problem, hint) = (with_kinds(&problem, counts), hint + unknown + escape);

@@ -6,8 +6,7 @@ use crate::path::{CurvePath, Direction};
 use crate::scenario::Request;
 use crate::validation::{CURVATURE_TOLERANCE, Report, judge_path};
 use crate::vehicle::{Gears, Motion, Vehicle};
-use std::cmp::Reverse;
-use std::collections::{BTreeSet, BinaryHeap};
+use std::collections::BTreeSet;
 
 /// A drive out of contact, which precedes a certified path.
 ///
@@ -35,18 +34,17 @@ impl Escape {
     }
 }
 
-/// Length of a motion, cells: the way out is as short as this allows.
-const STEP_CELLS: f64 = 0.25;
+/// Lengths of a motion, cells: the way out is as short as the first allows, or, where it is too
+/// long for that many motions, the second.
+const STEPS_CELLS: [f64; 2] = [0.25, 1.0];
 /// Share of the largest curvature at which a motion steers.
 const STEERING: [f64; 5] = [0.0, 0.5, -0.5, 1.0, -1.0];
-/// Poses after which no way out is expected any more: of a body that stands in obstacles with a
-/// part only, it is short.
-const MAX_POSES: usize = 5_000;
+/// Poses after which no way out of motions of one length is expected any more.
+const MAX_POSES: usize = 10_000;
 
 /// A pose on the way out, grid coordinates.
 struct Reached {
     pose: Pose2,
-    driven_m: f64,
     /// The pose before, and the motion from there: curvature and signed length.
     from: Option<(usize, [f64; 2])>,
 }
@@ -68,34 +66,49 @@ pub(super) fn escape(
     if !opened.is_free(&body, &Drive::at(start)) {
         return None;
     }
-    let step_m = STEP_CELLS * obstacles.frame().resolution_m();
-    let motions = motions(vehicle, request.gears, step_m);
+    let steps_m = STEPS_CELLS.map(|cells| cells * obstacles.frame().resolution_m());
+    let paths = steps_m.into_iter().find_map(|step_m| {
+        let motions = motions(vehicle, request.gears, step_m);
+        way_out([obstacles, &opened], &body, start, &motions)
+    });
+    paths.map(|motions| Escape {
+        path: drive(&motions, request.start),
+        n_cells: touched.len(),
+    })
+}
+
+/// The fewest of some motions of equal length that lead from a pose to one that is free on the
+/// first map, without touching anything on the second.
+fn way_out(
+    [obstacles, opened]: [&ObstacleMap; 2],
+    body: &Body,
+    start: Pose2,
+    motions: &[[f64; 2]],
+) -> Option<Vec<[f64; 2]>> {
+    let step_m = motions[0][1].abs();
     let turn_rad = step_m / body.reach_m();
+    // Motions of one length along a diagonal of these cells still leave them.
     let key = |pose: Pose2| {
         [
-            pose.x / (0.5 * step_m),
-            pose.y / (0.5 * step_m),
-            pose.heading / (0.5 * turn_rad),
+            pose.x / (0.7 * step_m),
+            pose.y / (0.7 * step_m),
+            pose.heading / (0.7 * turn_rad),
         ]
         .map(|share| share.round() as i64)
     };
     let mut seen = BTreeSet::from([key(start)]);
     let mut reached = vec![Reached {
         pose: start,
-        driven_m: 0.0,
         from: None,
     }];
-    // Lengths above 0 are in the order of their bits.
-    let mut open = BinaryHeap::from([Reverse((0_u64, 0_usize))]);
-    while let Some(Reverse((_, here))) = open.pop() {
-        let Reached { pose, driven_m, .. } = reached[here];
-        if obstacles.is_free(&body, &Drive::at(pose)) {
-            return Some(Escape {
-                path: drive_to(&reached, here, request.start),
-                n_cells: touched.len(),
-            });
+    // Motions are equally long: the first that is reached is the nearest.
+    let mut here = 0;
+    while here < reached.len() {
+        let pose = reached[here].pose;
+        if obstacles.is_free(body, &Drive::at(pose)) {
+            return Some(motions_to(&reached, here));
         }
-        for &[curvature_per_m, signed_length_m] in &motions {
+        for &[curvature_per_m, signed_length_m] in motions {
             let motion = Drive {
                 start: pose,
                 curvature_per_m,
@@ -105,17 +118,15 @@ pub(super) fn escape(
             if reached.len() == MAX_POSES || seen.contains(&key(next)) {
                 continue;
             }
-            if opened.is_free(&body, &motion) {
+            if opened.is_free(body, &motion) {
                 seen.insert(key(next));
-                let driven_m = driven_m + step_m;
-                open.push(Reverse((driven_m.to_bits(), reached.len())));
                 reached.push(Reached {
                     pose: next,
-                    driven_m,
                     from: Some((here, [curvature_per_m, signed_length_m])),
                 });
             }
         }
+        here += 1;
     }
     None
 }
@@ -130,8 +141,8 @@ fn motions(vehicle: &Vehicle, gears: Gears, step_m: f64) -> Vec<[f64; 2]> {
     all.collect()
 }
 
-/// The drive to a pose; motions that continue the one before become one segment with it.
-fn drive_to(reached: &[Reached], end: usize, start: Pose2) -> CurvePath {
+/// The motions to a pose, in order.
+fn motions_to(reached: &[Reached], end: usize) -> Vec<[f64; 2]> {
     let mut motions = Vec::new();
     let mut here = end;
     while let Some((before, motion)) = reached[here].from {
@@ -139,6 +150,11 @@ fn drive_to(reached: &[Reached], end: usize, start: Pose2) -> CurvePath {
         here = before;
     }
     motions.reverse();
+    motions
+}
+
+/// The drive of some motions; those that continue the one before become one segment with it.
+fn drive(motions: &[[f64; 2]], start: Pose2) -> CurvePath {
     let mut path = CurvePath::new(start);
     for same in motions.chunk_by(|a, b| a == b) {
         let [curvature_per_m, signed_length_m] = same[0];
@@ -156,6 +172,7 @@ fn drive_to(reached: &[Reached], end: usize, start: Pose2) -> CurvePath {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Point2;
     use crate::map::OccupancyGrid;
     use crate::scenario::StartContact;
 
@@ -207,6 +224,18 @@ mod tests {
         let length_m = escape.path.length_m();
         assert!((0.05..0.05 + 0.0251).contains(&length_m), "{length_m}");
         assert_eq!(escape.path.segments()[0].direction, Direction::Reverse);
+    }
+
+    #[test]
+    fn leads_along_a_wall_too() {
+        // Beside the flank an area of 0.4 x 0.3 m that is closed: ahead or back, past all of it.
+        let mut map = OccupancyGrid::from_rows(&[&".".repeat(100)[..]; 60], 0.1).unwrap();
+        let area = [[1.95, 2.55], [2.25, 2.55], [2.25, 2.75], [1.95, 2.75]];
+        map.fill_polygon(&area.map(|[x, y]| Point2::new(x, y)), 100);
+        let (map, vehicle) = (ObstacleMap::new(&map), Vehicle::warehouse_amr());
+        let escape = escape(&map, &vehicle, &from(Pose2::new(2.0, 3.0, 0.0))).unwrap();
+        assert!(escape.path.length_m() < 1.0, "{}", escape.path.length_m());
+        assert!(escape.report(&map, &vehicle).valid);
     }
 
     #[test]
