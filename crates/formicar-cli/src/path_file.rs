@@ -4,7 +4,7 @@ use crate::files;
 use anyhow::{Context, Result, anyhow};
 use formicar::collision::ObstacleMap;
 use formicar::path::CurvePath;
-use formicar::planner::{CertificateHashes, CertificateNumbers, PoseRecord, StoredPath};
+use formicar::planner::{CertificateHashes, CertificateNumbers, Escape, PoseRecord, StoredPath};
 use formicar::scenario::Request;
 use formicar::validation::{
     CURVATURE_TOLERANCE, FOREIGN_CURVATURE_SLACK, ForeignPath, ReadSamples, Report, judge,
@@ -36,6 +36,8 @@ pub(crate) struct PathFile {
     pub(crate) hint: Option<&'static str>,
     pub(crate) sample_deviation_m: f64,
     request: Option<Request>,
+    /// The drive out of contact before the path of an answer.
+    pub(crate) escape: Option<Escape>,
     pub(crate) poses: Option<Vec<PoseRecord>>,
     pub(crate) hashes: Option<CertificateHashes>,
     pub(crate) numbers: Option<CertificateNumbers>,
@@ -54,6 +56,7 @@ pub(crate) fn read(path: &Path, vehicle: &Vehicle) -> Result<PathFile> {
             hint: None,
             sample_deviation_m: 0.0,
             request: stored.request,
+            escape: stored.escape,
             poses: Some(stored.poses),
             hashes: stored.hashes,
             numbers: stored.numbers,
@@ -75,6 +78,7 @@ pub(crate) fn read(path: &Path, vehicle: &Vehicle) -> Result<PathFile> {
         hint,
         sample_deviation_m: samples.deviation_m(),
         request: None,
+        escape: None,
         poses: None,
         hashes: None,
         numbers: None,

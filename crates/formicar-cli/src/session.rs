@@ -83,8 +83,10 @@ impl Session {
         let result = request.and_then(|request| self.planner.plan(&request, seed, &mut watch));
         let clock = watch.0;
         let blocked = &self.scene.blocked;
+        let contact = asked.as_ref().map(|request| request.start_contact);
+        let contact = contact.unwrap_or_default();
         let result = result.map_err(|error| match error {
-            PlanError::Scenario(error) => PlanError::Scenario(blocked.named(error)),
+            PlanError::Scenario(error) => PlanError::Scenario(blocked.named(error, contact)),
             error => error,
         });
         let result = result.map(|outcome| match (outcome, &asked) {

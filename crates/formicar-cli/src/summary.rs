@@ -38,6 +38,8 @@ pub(crate) fn write(
     for note in &answer.notes {
         writeln!(out, "note       {note}")?;
     }
+    let asked = answer.provenance.request.as_ref();
+    let budget_steps = asked.and_then(|request| request.budget_steps);
     let first = answer
         .timing
         .first_feasible_s
@@ -48,10 +50,11 @@ pub(crate) fn write(
         counted(path.poses.len(), "pose"),
         counted(path.segments.len(), "segment"),
         counted(n_improvements, "time"),
-        match answer.cut_by {
-            Some(Status::TimedOut) => "stopped by the deadline",
-            Some(_) => "stopped by the budget",
-            None => "done",
+        match (answer.cut_by, budget_steps) {
+            (Some(Status::TimedOut), _) => "stopped by the deadline".to_owned(),
+            (Some(_), Some(n_steps)) => format!("stopped by the budget of {n_steps} steps"),
+            (Some(_), None) => "stopped by the budget".to_owned(),
+            (None, _) => "done".to_owned(),
         },
         duration(answer.timing.query_s),
     )

@@ -89,6 +89,22 @@ pub(crate) fn start_offset(text: &str) -> Result<StartOffset, String> {
     })
 }
 
+/// A limit of search steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Budget {
+    None,
+    Steps(u64),
+}
+
+/// A number of steps, or `none`.
+pub(crate) fn budget(text: &str) -> Result<Budget, String> {
+    if text == "none" {
+        return Ok(Budget::None);
+    }
+    let steps = text.parse().map(Budget::Steps);
+    steps.map_err(|_| format!("{text:?} is no number of steps; hint: 200000, or none for no limit"))
+}
+
 /// `M[,RAD]`: the most meters and radians (or `10deg`) between two poses.
 pub(crate) fn spacing(text: &str) -> Result<Spacing, String> {
     let expected = "M or M,RAD: meters and radians, for instance 0.05,5deg";

@@ -565,3 +565,82 @@ fn a_mask_closes_ground_and_is_named_in_answer_and_certificate() {
     room.plan(&["--keep-out", "1,2 3"])
         .assert_refused(&["not x,y", "map file"]);
 }
+
+#[test]
+fn out_of_contact_first_and_certified_from_there_on() {
+    let room = Room::new();
+    // Its front 7.5 cm in the wall across the room.
+    let stuck = [
+        "plan",
+        "--map",
+        "room.yaml",
+        "--start",
+        "5.3,2,0",
+        "--goal",
+        "2,5,90deg",
+    ];
+    let plan = |more: &[&str]| room.run(&[&stuck[..], more].concat());
+    plan(&[]).assert_refused(&["overlaps", "--escape"]);
+    let answer = plan(&["--escape", "--json", "--out", "path.json"]).json();
+    assert_eq!(answer["status"], "found");
+    let out = &answer["escape"]["path"];
+    assert_eq!(out["segments"][0]["direction"], -1);
+    let length_m = out["segments"][0]["length"].as_f64().unwrap();
+    assert!((0.075..0.13).contains(&length_m), "{length_m}");
+    assert_eq!(
+        out["poses"].as_array().unwrap().last().unwrap()["x"],
+        answer["path"]["segments"][0]["x"]
+    );
+    assert_eq!(answer["provenance"]["request"]["start"][0], 5.3);
+    plan(&["--escape"]).assert_says("out of contact, uncertified; the path begins at");
+    let check = || room.run(&["check", "path.json", "--map", "room.yaml"]);
+    let checked = check();
+    assert_eq!(checked.code, 0, "{}", checked.stdout);
+    checked.assert_says("escape     touches nothing but the cells in which it begins");
+    // A drive through the wall is no way out, and one that begins elsewhere is not that of the request.
+    let honest = room.read("path.json");
+    for (pointer, value) in [
+        ("/escape/path/segments/0/direction", json!(1)),
+        ("/escape/path/segments/0/x", json!(5.0)),
+        ("/escape/path/segments/0/length", json!(0.05)),
+    ] {
+        let mut forged: Value = serde_json::from_str(&honest).unwrap();
+        *forged.pointer_mut(pointer).unwrap() = value;
+        room.write("path.json", forged.to_string());
+        let checked = check();
+        assert_eq!(checked.code, 3, "{pointer}: {}", checked.stdout);
+    }
+    // From free ground the flag changes nothing.
+    let free = |more: &[&str]| room.plan(&[&["--json"], more].concat()).json();
+    assert!(free(&["--escape"]).get("escape").is_none());
+    assert_eq!(free(&["--escape"])["path"], free(&[])["path"]);
+    // In the middle of the wall, lengthwise, there is none.
+    let shut = [
+        "plan",
+        "--map",
+        "room.yaml",
+        "--start",
+        "6.1,2,90deg",
+        "--goal",
+        "2,5,90deg",
+        "--escape",
+    ];
+    room.run(&shut).assert_refused(&["no way out", "hint"]);
+}
+
+#[test]
+fn a_budget_ends_a_run_by_default_and_none_lifts_it() {
+    let room = Room::new();
+    let budget = |more: &[&str]| {
+        let answer = room.plan(&[&["--json"], more].concat()).json();
+        answer["provenance"]["request"]["budget_steps"].clone()
+    };
+    assert_eq!(budget(&[]), 200_000);
+    assert_eq!(budget(&["--budget", "none"]), Value::Null);
+    assert_eq!(budget(&["--budget", "70"]), 70);
+    assert_eq!(budget(&["--planner", "dijkstra"]), Value::Null);
+    for bad in ["-1", "1.5", "many"] {
+        room.plan(&["--budget", bad])
+            .assert_refused(&[bad, "steps", "none"]);
+    }
+}

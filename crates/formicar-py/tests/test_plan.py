@@ -99,7 +99,6 @@ def test_a_gap_is_named(planner: Planner) -> None:
         ({"keep_out": [[(0.0, 0.0), (1.0, 1.0), (0.0, float("nan"))]]}, "not finite"),
         ({"soft_costs": np.zeros((2, 2))}, "shape"),
         ({"soft_costs": np.zeros(4)}, "shape"),
-        ({"continuous_curvature": True}, "max_steer_rate"),
         ({"continuous_curvature": -1.0}, "max_rate_per_m2"),
     ],
 )
@@ -166,6 +165,14 @@ def test_via_points_are_passed(planner: Planner) -> None:
     )
     assert plan and plan.certificate and len(plan.certificate.via_s_m) == 2
     assert np.hypot(*(plan.xy - (6.0, 6.5)).T).min() < 0.2
+
+
+def test_continuous_curvature_without_a_number_needs_a_steering_rate(hall: OccupancyGrid) -> None:
+    measures = formicar.Vehicle.preset("warehouse_amr").measures
+    unknown = {name: value for name, value in measures.items() if "rate" not in name}
+    with pytest.raises(InvalidRequest, match="max_steer_rate"):
+        Planner(hall, formicar.Vehicle(**unknown)).plan(START, GOAL, continuous_curvature=True)
+    assert Planner(hall, "warehouse_amr").plan(START, GOAL, continuous_curvature=True)
 
 
 def test_continuous_curvature_is_certified(planner: Planner) -> None:

@@ -59,6 +59,9 @@ struct Checked {
     certificate: Report,
     /// Whether the sampled poses of an answer lie on its segments; null for other paths.
     poses_on_segments: Option<bool>,
+    /// The findings on the drive out of contact before the path, to which the cells touched where
+    /// it begins do not count; null where there is none.
+    escape: Option<Report>,
     /// Whether the recorded certificate is for this map, vehicle and path.
     matches_record: Option<Matches>,
 }
@@ -93,7 +96,10 @@ pub(crate) fn run(args: &CheckArgs, out: &mut impl Write) -> Result<Ending, Fail
 
 fn check(file: &PathFile, scene: &Scene) -> Checked {
     let vehicle = &scene.vehicle.vehicle;
-    let (path, report) = file.judged(&ObstacleMap::new(&scene.map), vehicle);
+    let obstacles = ObstacleMap::new(&scene.map);
+    let (path, report) = file.judged(&obstacles, vehicle);
+    let escape = file.escape.as_ref();
+    let escape = escape.map(|escape| escape.report(&obstacles, vehicle));
     let report = report.assuming(&scene.record.assumptions());
     let matches_record = file.hashes.as_ref().map(|record| Matches {
         map: record.map_hash == report.map_hash,
@@ -105,7 +111,9 @@ fn check(file: &PathFile, scene: &Scene) -> Checked {
     let poses_on_segments = file.poses.as_ref().map(|poses| are_samples_of(poses, path));
     Checked {
         schema: "formicar/check/1",
-        valid: report.valid && poses_on_segments != Some(false),
+        valid: report.valid
+            && poses_on_segments != Some(false)
+            && escape.as_ref().is_none_or(|escape| escape.valid),
         source: file.source,
         reading: file.reading.clone(),
         hint: file.hint,
@@ -116,6 +124,7 @@ fn check(file: &PathFile, scene: &Scene) -> Checked {
         n_segments: path.segments().len(),
         certificate: report,
         poses_on_segments,
+        escape,
         matches_record,
     }
 }
@@ -160,6 +169,19 @@ fn explain(
     writeln!(out, "read       {}", reading(checked))?;
     if let Some(matches) = checked.matches_record {
         writeln!(out, "record     {}", matches.words())?;
+    }
+    if let Some(escape) = &checked.escape {
+        match escape.violations.first() {
+            None => writeln!(
+                out,
+                "escape     touches nothing but the cells in which it begins"
+            )?,
+            Some(first) => writeln!(
+                out,
+                "violation  on the way out of contact: {}",
+                first.message
+            )?,
+        }
     }
     if checked.poses_on_segments == Some(false) {
         writeln!(

@@ -3,7 +3,7 @@
 use super::closed::Closed;
 use formicar::map::{Cell, DistanceField, OCCUPIED, OccupancyGrid, UNKNOWN, UnknownPolicy};
 use formicar::planner::Explanation;
-use formicar::scenario::ScenarioError;
+use formicar::scenario::{Endpoint, ScenarioError, StartContact};
 use formicar::search::widest_passage;
 use formicar::vehicle::Vehicle;
 
@@ -56,7 +56,7 @@ impl Blocked {
     }
 
     /// The same error with what the body overlaps called by its name.
-    pub(crate) fn named(&self, error: ScenarioError) -> ScenarioError {
+    pub(crate) fn named(&self, error: ScenarioError, contact: StartContact) -> ScenarioError {
         let ScenarioError::Occupied {
             which,
             x,
@@ -75,14 +75,15 @@ impl Blocked {
                 .count()
         };
         let counts = [Kind::Obstacle, Kind::Unknown, Kind::KeepOut].map(count);
-        let n_unknown = counts[1];
-        let (problem, hint) = (
-            with_kinds(&problem, counts),
-            match n_unknown {
-                0 => hint,
-                _ => format!("{hint}; --unknown free drives on unknown ground"),
-            },
-        );
+        let unknown = match counts[1] {
+            0 => "",
+            _ => "; --unknown free drives on unknown ground",
+        };
+        let escape = match (which, contact) {
+            (Endpoint::Start, StartContact::Refuse) => "; --escape drives out of contact first",
+            _ => "",
+        };
+        let (problem, hint) = (with_kinds(&problem, counts), hint + unknown + escape);
         ScenarioError::Occupied {
             which,
             x,

@@ -83,7 +83,7 @@ class Plan:
     >>> planner = formicar.Planner("parking-lot")
     >>> plan = planner.plan(*planner.map.requests["back-in"])
     >>> plan.poses.dtype.names
-    ('x', 'y', 'heading', 's', 'direction', 'curvature', 'steer', 'clearance')
+    ('x', 'y', 'heading', 's', 'direction', 'curvature', 'steer', 'clearance', 'speed', 'time')
     >>> round(plan.certificate.min_clearance_m, 2)
     0.25
     >>> cut = planner.plan(*planner.map.requests["back-in"], budget=10)

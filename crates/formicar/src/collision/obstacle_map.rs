@@ -2,7 +2,9 @@
 
 use super::Body;
 use crate::geometry::{Point2, Pose2};
-use crate::map::{self, BitGrid, CellRegion, DistanceField, GridFrame, MapError, OccupancyGrid};
+use crate::map::{
+    self, BitGrid, Cell, CellRegion, DistanceField, GridFrame, MapError, OccupancyGrid,
+};
 use std::ops::Range;
 use std::sync::OnceLock;
 use xxhash_rust::xxh3::xxh3_128;
@@ -82,6 +84,26 @@ impl ObstacleMap {
         self.distance.refresh(&self.lethal, &changed);
         self.hash = OnceLock::new();
         Ok(Some(changed))
+    }
+
+    /// The same map with some cells free: cost proportional to the map, or to the rectangle about
+    /// these cells where few are given.
+    #[must_use]
+    pub fn without(&self, cells: &[Cell]) -> Self {
+        let mut opened = self.clone();
+        let here = |&cell: &Cell| CellRegion::new(cell, 1, 1);
+        let region = cells.iter().map(here).reduce(|all, cell| all.with(&cell));
+        if let Some(region) = region {
+            let value = |cell: Cell| {
+                let (col, row) = (cell.col as usize, cell.row as usize);
+                let is_kept = self.lethal.get(col, row) && !cells.contains(&cell);
+                if is_kept { map::OCCUPIED } else { map::FREE }
+            };
+            let values: Vec<i8> = region.cells().map(value).collect();
+            let updated = opened.update(&region, &values);
+            updated.expect("cells of the map, and a value for each");
+        }
+        opened
     }
 
     /// Size, resolution and origin of the map.
@@ -230,7 +252,6 @@ fn refresh_rim(rim: &mut BitGrid, lethal: &BitGrid, rows: Range<usize>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::map::Cell;
     use proptest::prelude::*;
 
     proptest! {

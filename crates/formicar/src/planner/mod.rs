@@ -33,12 +33,12 @@ pub use config::ConfigError;
 #[cfg(feature = "serde")]
 pub use documents::{
     ANSWER_SCHEMA, Answer, AnswerContext, AnswerError, AnswerStatus, CertificateHashes,
-    CertificateNumbers, ColonyRecord, ConfigRecord, KeepOutMapRecord, MapRecord, PathDocument,
-    PoseRecord, Provenance, RequestDocument, SegmentRecord, SoftCostsRecord, StoredPath, Timing,
-    VehicleRecord, ViaRecord, are_samples_of,
+    CertificateNumbers, ColonyRecord, ConfigRecord, EscapeRecord, KeepOutMapRecord, MapRecord,
+    PathDocument, PoseRecord, Provenance, RequestDocument, SegmentRecord, SoftCostsRecord,
+    StoredPath, Timing, VehicleRecord, ViaRecord, are_samples_of,
 };
 pub use documents::{Collision, Disconnected, Explanation, Gap};
-pub use door::{Planner, plan};
+pub use door::{Escape, Planner, plan};
 pub use evolution::EvolutionParameters;
 pub use flagship::{FormicarParameters, ReplanConfig};
 pub use halt::{Ended, Found, Halt};

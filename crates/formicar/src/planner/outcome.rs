@@ -1,6 +1,6 @@
 //! The outcome of a query.
 
-use super::{ConfigError, Explanation};
+use super::{ConfigError, Escape, Explanation};
 use crate::colony::ColonyRun;
 use crate::evolution::EvolutionRun;
 use crate::layers::Layers;
@@ -92,6 +92,9 @@ pub struct Plan {
     /// The limit that ended the improvement of the path early: budget or deadline. Only a deadline
     /// can make two runs differ.
     pub cut_by: Option<Status>,
+    /// The drive out of contact before the path, where the request asks for one and the vehicle
+    /// stands in obstacles. The certificate holds from its end on.
+    pub escape: Option<Escape>,
 }
 
 /// Intermediate results before the path that is judged, for pictures and studies; a planner

@@ -12,4 +12,4 @@ pub use curvature::{CurvatureMode, CurvatureRate};
 pub use error::{Endpoint, ErrorCode, ScenarioError};
 pub use goal_region::GoalRegion;
 pub use goals::ReachedGoal;
-pub use request::{GoalHeading, GoalTolerance, Request, StartHeading, ViaPoint};
+pub use request::{GoalHeading, GoalTolerance, Request, StartContact, StartHeading, ViaPoint};

@@ -35,6 +35,8 @@ pub struct Request {
     pub start_heading: StartHeading,
     /// The rule for the goal heading.
     pub goal_heading: GoalHeading,
+    /// What to do where the vehicle stands in contact with obstacles.
+    pub start_contact: StartContact,
     /// The tolerance at the goal.
     pub goal_tolerance: GoalTolerance,
     /// The gears that the path may use.
@@ -116,6 +118,21 @@ pub enum StartHeading {
     Exact,
     /// The planner chooses.
     Any,
+}
+
+/// The rule for a start at which the body touches obstacles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum StartContact {
+    /// The request is refused.
+    #[default]
+    Refuse,
+    /// The vehicle first drives out by the shortest way on which it touches nothing that it does
+    /// not touch already; the certified path begins where it is free.
+    Escape,
 }
 
 /// The rule for the goal heading.

@@ -2,7 +2,7 @@
 
 use crate::mode_args::ModeArgs;
 use crate::scene::SceneArgs;
-use crate::values;
+use crate::values::{self, Budget};
 use clap::{Args, ValueHint};
 use formicar::geometry::Pose2;
 use formicar::path::Spacing;
@@ -35,6 +35,11 @@ pub(crate) struct PlanArgs {
 
     #[command(flatten)]
     pub(crate) modes: ModeArgs,
+
+    /// From a start in contact with obstacles, drive out by the shortest way first, touching
+    /// nothing else; the certified path begins where the vehicle is free.
+    #[arg(long)]
+    pub(crate) escape: bool,
 
     /// Limit how fast the curvature changes along the path, 1/m^2, instead of letting it jump from
     /// arc to arc; without a number, the vehicle's steering rate and speed give the limit.
@@ -89,9 +94,10 @@ pub(crate) struct PlanArgs {
     #[arg(long, value_name = "TIME", value_parser = values::milliseconds, allow_hyphen_values = true)]
     pub(crate) deadline: Option<f64>,
 
-    /// Limit of search steps.
-    #[arg(long, value_name = "STEPS", allow_hyphen_values = true)]
-    pub(crate) budget: Option<u64>,
+    /// Limit of search steps, or `none`; by default 200000 for formicar and hybrid-astar, a few
+    /// seconds, and none for others.
+    #[arg(long, value_name = "STEPS|none", value_parser = values::budget, allow_hyphen_values = true)]
+    pub(crate) budget: Option<Budget>,
 
     /// Write the answer (.json) or the poses of the path (.csv); may be repeated.
     #[arg(long, value_name = "F.json|F.csv", value_hint = ValueHint::FilePath, conflicts_with = "stdin")]

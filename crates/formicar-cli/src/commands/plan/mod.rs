@@ -12,13 +12,14 @@ use crate::output::{Target, print_json};
 use crate::picture::{self, PictureKind};
 use crate::scene::{self, Scene};
 use crate::session::{Answered, Session};
+use crate::values::Budget;
 use crate::{settings, summary};
 use anyhow::Result;
 use formicar::geometry::Pose2;
 use formicar::numeric::Seed;
-use formicar::planner::{RequestDocument, ViaRecord};
+use formicar::planner::{PlannerName, RequestDocument, ViaRecord};
 use formicar::render::Layout;
-use formicar::scenario::{CurvatureMode, CurvatureRate, ViaPoint};
+use formicar::scenario::{CurvatureMode, CurvatureRate, StartContact, ViaPoint};
 use std::io::Write;
 use std::time::Instant;
 
@@ -47,7 +48,10 @@ pub(crate) fn run(args: &PlanArgs, out: &mut impl Write) -> Result<Ending, Failu
         ants::check(config.planner())?;
     }
     let soft_costs = soft_costs::load(args, &mut scene, config.planner())?;
-    let defaults = request(args, &scene);
+    let defaults = RequestDocument {
+        budget_steps: budget_steps(args.budget, config.planner()),
+        ..request(args, &scene)
+    };
     let n_threads = args.threads.map_or(1, |n| n as usize);
     let mut session = Session::new(scene, config, begun)?.with_threads(n_threads);
     session.spacing = args.spacing.unwrap_or_default();
@@ -113,10 +117,24 @@ fn request(args: &PlanArgs, scene: &Scene) -> RequestDocument {
             .continuous_curvature
             .map(|max_rate_per_m2| CurvatureMode::Continuous(CurvatureRate { max_rate_per_m2 })),
         start_heading: args.modes.start_heading,
+        start_contact: args.escape.then_some(StartContact::Escape),
         goal_heading: args.modes.goal_heading,
         deadline_ms: args.deadline,
-        budget_steps: args.budget,
+        budget_steps: None,
         seed: Some(args.seed),
+    }
+}
+
+/// Steps by default: no query that is known of takes over 5 s of processor time to get there.
+const DEFAULT_BUDGET_STEPS: u64 = 200_000;
+
+/// The budget asked for; of searches whose steps are motions of a vehicle, one by default.
+fn budget_steps(asked: Option<Budget>, planner: PlannerName) -> Option<u64> {
+    let drives = matches!(planner, PlannerName::Formicar | PlannerName::HybridAstar);
+    match asked {
+        Some(Budget::Steps(n_steps)) => Some(n_steps),
+        Some(Budget::None) => None,
+        None => drives.then_some(DEFAULT_BUDGET_STEPS),
     }
 }
 

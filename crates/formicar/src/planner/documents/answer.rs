@@ -58,6 +58,10 @@ pub struct Answer {
     pub colony: Option<ColonyRecord>,
     /// Times, seconds.
     pub timing: Timing,
+    /// The drive out of contact before the path, which no certificate covers; missing where there
+    /// is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub escape: Option<EscapeRecord>,
     /// The path, only if it is certified.
     pub path: Option<PathDocument>,
     /// All that a repetition of the run needs.
@@ -112,6 +116,16 @@ impl From<Status> for AnswerStatus {
             Status::Cancelled => Self::Cancelled,
         }
     }
+}
+
+/// A drive out of contact with obstacles.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct EscapeRecord {
+    /// Cells that the body touches at the start; on the drive it touches no others.
+    pub n_cells: usize,
+    /// The drive.
+    pub path: PathDocument,
 }
 
 /// The run of a colony.
@@ -349,6 +363,10 @@ impl AnswerContext<'_> {
             cut_by: plan.cut_by,
             notes: notes(plan, vehicle),
             colony: ColonyRecord::new(&plan.stages),
+            escape: plan.escape.as_ref().map(|escape| EscapeRecord {
+                n_cells: escape.n_cells,
+                path: PathDocument::new(&escape.path, obstacles, vehicle, self.spacing),
+            }),
             path: Some(PathDocument::new(
                 &plan.path,
                 obstacles,
@@ -377,6 +395,7 @@ impl AnswerContext<'_> {
             metrics: None,
             colony: None,
             timing: Timing::default(),
+            escape: None,
             path: None,
             provenance: self.provenance(request),
         }
@@ -410,7 +429,15 @@ fn notes(plan: &Plan, vehicle: &Vehicle) -> Vec<String> {
             "the curvature jumps at {places}, where the vehicle has to stop to turn its wheels; hint: ask for continuous curvature (--continuous-curvature)"
         )
     });
-    standing.into_iter().collect()
+    let escape = plan.escape.as_ref().map(|escape| {
+        let (length_m, n_cells) = (escape.path.length_m(), counted(escape.n_cells, "cell"));
+        let there = plan.path.start().wrapped();
+        format!(
+            "the vehicle stands in {n_cells} and first drives {length_m:.3} m out of contact, uncertified; the path begins at ({:.3}, {:.3}, {:.4})",
+            there.x, there.y, there.heading
+        )
+    });
+    escape.into_iter().chain(standing).collect()
 }
 
 fn not_found(failure: &NotFound, blank: Answer) -> Answer {

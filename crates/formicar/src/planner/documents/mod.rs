@@ -16,7 +16,7 @@ mod via_record;
 
 #[cfg(feature = "serde")]
 pub use answer::{
-    ANSWER_SCHEMA, Answer, AnswerContext, AnswerStatus, ColonyRecord, ConfigRecord,
+    ANSWER_SCHEMA, Answer, AnswerContext, AnswerStatus, ColonyRecord, ConfigRecord, EscapeRecord,
     KeepOutMapRecord, MapRecord, Provenance, SoftCostsRecord, Timing, VehicleRecord,
 };
 pub use explanation::{Collision, Disconnected, Explanation, Gap};

@@ -3,7 +3,9 @@
 use super::via_record::ViaRecord;
 use crate::geometry::{MAX_STATED_HEADING_RAD, Pose2};
 use crate::scenario::ScenarioError;
-use crate::scenario::{CurvatureMode, GoalHeading, GoalTolerance, Request, StartHeading};
+use crate::scenario::{
+    CurvatureMode, GoalHeading, GoalTolerance, Request, StartContact, StartHeading,
+};
 use crate::vehicle::Gears;
 use std::time::Duration;
 
@@ -35,6 +37,9 @@ pub struct RequestDocument {
     pub curvature: Option<CurvatureMode>,
     /// Heading at the start: fixed or free.
     pub start_heading: Option<StartHeading>,
+    /// A start in contact with obstacles: refused, or left by the shortest way.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start_contact: Option<StartContact>,
     /// Heading at the goal: fixed, either way round, or free.
     pub goal_heading: Option<GoalHeading>,
     /// Time after which to give up, milliseconds.
@@ -90,6 +95,10 @@ impl RequestDocument {
             start_heading: self
                 .start_heading
                 .or(defaults.start_heading)
+                .unwrap_or_default(),
+            start_contact: self
+                .start_contact
+                .or(defaults.start_contact)
                 .unwrap_or_default(),
             goal_heading: self
                 .goal_heading
@@ -164,6 +173,8 @@ impl From<&Request> for RequestDocument {
             // Left out where nothing was asked for, so that such answers stay what they were.
             curvature: Some(request.curvature).filter(|&c| c != CurvatureMode::Arcs),
             start_heading: Some(request.start_heading),
+            start_contact: Some(request.start_contact)
+                .filter(|&contact| contact != StartContact::Refuse),
             goal_heading: Some(request.goal_heading),
             deadline_ms: request.deadline.map(|d| d.as_secs_f64() * 1e3),
             budget_steps: request.budget_steps,

@@ -1,10 +1,12 @@
 //! A path that stands in an answer of before, with what its certificate claims.
 
-use super::answer::ANSWER_SCHEMA;
+use super::answer::{ANSWER_SCHEMA, EscapeRecord};
 use super::path_document::{PathDocument, PoseRecord};
 use super::request_document::RequestDocument;
+use crate::geometry::{Pose2, angle_difference};
 use crate::path::CurvePath;
-use crate::scenario::{Request, ScenarioError};
+use crate::planner::Escape;
+use crate::scenario::{Request, ScenarioError, StartContact, StartHeading};
 use thiserror::Error;
 
 /// The part of a stored answer that `check` needs.
@@ -14,6 +16,8 @@ pub struct StoredPath {
     pub path: CurvePath,
     /// The request that it answered, if that is on record.
     pub request: Option<Request>,
+    /// The drive out of contact before it, if there is one; the request then begins where it ends.
+    pub escape: Option<Escape>,
     /// The sampled poses on record; followers drive these, so they too need a look.
     pub poses: Vec<PoseRecord>,
     /// Hashes of its certificate, if it has one.
@@ -92,11 +96,34 @@ impl StoredPath {
         };
         let request = stored.provenance.and_then(|p| p.request);
         let defaults = RequestDocument::default();
+        let request = request.map(|r| r.recorded_onto(&defaults)).transpose()?;
+        let escape = stored.escape.and_then(|record| {
+            let (n_cells, path) = (record.n_cells, record.path.curve_path()?);
+            Some(Escape { path, n_cells })
+        });
+        // A drive that begins elsewhere leads nowhere: the path is then judged from the start.
+        let is_of = |request: &Request| {
+            let escape = escape
+                .as_ref()
+                .filter(|_| request.start_contact == StartContact::Escape);
+            escape
+                .filter(|escape| is_same(escape.path.start(), request.start))
+                .map(|e| e.path.end())
+        };
+        let request = request.map(|request| match is_of(&request) {
+            Some(start) => Request {
+                start,
+                start_heading: StartHeading::Exact,
+                ..request
+            },
+            None => request,
+        });
         Ok(Self {
             path: path.ok_or(AnswerError::NoPath {
                 status: stored.status,
             })?,
-            request: request.map(|r| r.recorded_onto(&defaults)).transpose()?,
+            request,
+            escape,
             poses: stored.path.map(|path| path.poses).unwrap_or_default(),
             hashes,
             numbers,
@@ -104,11 +131,19 @@ impl StoredPath {
     }
 }
 
+/// True for poses that differ by rounding.
+fn is_same(a: Pose2, b: Pose2) -> bool {
+    const TOLERANCE: f64 = 1e-6;
+    a.position().distance(b.position()) <= TOLERANCE
+        && angle_difference(a.heading, b.heading).abs() <= TOLERANCE
+}
+
 #[derive(serde::Deserialize)]
 struct StoredAnswer {
     schema: String,
     status: String,
     path: Option<PathDocument>,
+    escape: Option<EscapeRecord>,
     certificate: Option<StoredCertificate>,
     provenance: Option<StoredProvenance>,
 }

@@ -50,6 +50,7 @@ pub(super) fn conclude(
                 certificate,
                 n_steps,
                 cut_by,
+                escape: None,
             }))
         }
         Err(report) => {

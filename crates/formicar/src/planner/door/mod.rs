@@ -3,11 +3,13 @@
 mod conclude;
 mod continuous;
 mod disconnected;
+mod escape;
 mod explain;
 mod goals;
 mod legs;
 
 pub(super) use disconnected::AxleGround;
+pub use escape::Escape;
 pub(super) use legs::find_legs;
 
 use super::prepared::PreparedMap;
@@ -18,7 +20,7 @@ use crate::map::{CellRegion, OccupancyGrid};
 use crate::numeric::Seed;
 use crate::path::CurvePath;
 use crate::progress::{Limits, Observer};
-use crate::scenario::{Request, Scenario};
+use crate::scenario::{Endpoint, Request, Scenario, ScenarioError, StartContact, StartHeading};
 use crate::vehicle::{Motion, Vehicle};
 use std::sync::Arc;
 
@@ -122,6 +124,37 @@ impl Planner {
     /// A request that cannot be asked on this map, or a deadline without a clock. Ending without
     /// a path is no error.
     pub fn plan(
+        &mut self,
+        request: &Request,
+        seed: Seed,
+        observer: &mut dyn Observer,
+    ) -> Result<Outcome, PlanError> {
+        let Some((escape, from_there)) = self.escape(request) else {
+            let outcome = self.plan_from_free(request, seed, observer);
+            return outcome.map_err(|error| shut_in(request, error));
+        };
+        let mut outcome = self.plan_from_free(&from_there, seed, observer)?;
+        if let Outcome::Found(plan) = &mut outcome {
+            plan.escape = Some(escape);
+        }
+        Ok(outcome)
+    }
+
+    /// The way out of contact where the request asks for one, and what it asks for from there.
+    fn escape(&self, request: &Request) -> Option<(Escape, Request)> {
+        if request.start_contact == StartContact::Refuse || !request.start.is_finite() {
+            return None;
+        }
+        let escape = escape::escape(self.obstacles(), self.vehicle(), request)?;
+        let from_there = Request {
+            start: escape.path.end(),
+            start_heading: StartHeading::Exact,
+            ..request.clone()
+        };
+        Some((escape, from_there))
+    }
+
+    fn plan_from_free(
         &mut self,
         request: &Request,
         seed: Seed,
@@ -249,6 +282,29 @@ fn replan(task: &mut Task, previous: &CurvePath, limits: &mut Limits) -> Result<
     match standing {
         Some(found) => Ok(found),
         None => task.search.replan(task, previous, limits),
+    }
+}
+
+/// The error of a start in contact, where a way out was asked for and none was found.
+fn shut_in(request: &Request, error: PlanError) -> PlanError {
+    let is_asked = request.start_contact == StartContact::Escape;
+    match error {
+        PlanError::Scenario(ScenarioError::Occupied {
+            which: Endpoint::Start,
+            x,
+            y,
+            problem,
+            hint,
+            cells,
+        }) if is_asked => PlanError::Scenario(ScenarioError::Occupied {
+            which: Endpoint::Start,
+            x,
+            y,
+            problem: format!("{problem}, and no way out touches these cells alone"),
+            hint,
+            cells,
+        }),
+        error => error,
     }
 }
 
