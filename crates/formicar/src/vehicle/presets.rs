@@ -23,7 +23,7 @@ pub const PRESET_NAMES: [&str; 6] = [
 ];
 
 impl Vehicle {
-    /// The vehicle of Lei & Zheng 2020, sec. IV.B; its overhangs and [`Pace`] are our choice.
+    /// The vehicle of Lei & Zheng 2020, sec. IV.B; its overhangs and its pace are our choice.
     pub fn lei2020() -> Self {
         let pace = Pace(1.0, 1.0, 0.5);
         let car = rectangle([2.0, 1.0, 0.5, 0.5], 40_f64.to_radians(), pace);
@@ -53,7 +53,7 @@ impl Vehicle {
         made(rectangle([2.8, 1.942, 0.96, 0.929], 0.75, pace))
     }
 
-    /// A middle-sized passenger car; its [`Pace`] is our choice, that of a car in a parking lot.
+    /// A middle-sized passenger car; its pace is our choice, that of a car in a parking lot.
     pub fn sedan() -> Self {
         let pace = Pace(0.6, 2.0, 1.0);
         made(rectangle([2.8, 1.8, 0.9, 1.0], 35_f64.to_radians(), pace))

@@ -135,6 +135,12 @@ impl<'a> DriveProblem<'a> {
         self
     }
 
+    /// True where the cheapest path is sought and not the soonest: by the whole cost, or by soft
+    /// costs.
+    pub fn seeks_cheapest(&self) -> bool {
+        self.shares.coarse >= 1.0 || self.soft_costs.is_some()
+    }
+
     /// True on the refined lattice.
     pub fn is_refined(&self) -> bool {
         self.is_refined

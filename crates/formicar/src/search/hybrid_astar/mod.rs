@@ -77,15 +77,21 @@ impl<'a> Stage<'a> {
         let (coarse, exact, fine) = (problem.clone(), problem.exact(), problem.refined());
         let from_goal = problem.swapped();
         let (exact_from_goal, fine_from_goal) = (exact.swapped(), fine.swapped());
+        // Who seeks the cheapest path is not served by another lattice's first one.
+        let short_patience = if problem.seeks_cheapest() {
+            LONG_PATIENCE
+        } else {
+            SHORT_PATIENCE
+        };
         let roomy = problem.keeps_clearance().then(|| coarse.clone());
         let stages = if problem.is_refined() {
             vec![(Some(fine), Wide, u64::MAX)]
         } else {
             vec![
                 (roomy, Roomy, LONG_PATIENCE),
-                (Some(coarse.clone()), Turning, SHORT_PATIENCE),
-                (from_goal.clone(), Turning, SHORT_PATIENCE),
-                (Some(exact.clone()), Wide, SHORT_PATIENCE),
+                (Some(coarse.clone()), Turning, short_patience),
+                (from_goal.clone(), Turning, short_patience),
+                (Some(exact.clone()), Wide, short_patience),
                 (Some(fine.clone()), Wide, SHORT_PATIENCE),
                 (fine_from_goal.clone(), Wide, SHORT_PATIENCE),
                 (Some(fine.clone()), Wide, MIDDLE_PATIENCE),
