@@ -25,6 +25,8 @@ pub struct Limits<'a> {
     /// Time before the deadline that is kept for the last judgement of a path.
     kept: Duration,
     n_steps: u64,
+    /// Steps of the query that observers are told of during work that does not count as search.
+    told_steps: Option<u64>,
     /// Length of the path that was reported last.
     reported_m: Option<f64>,
     /// True while paths are legs of the one that is asked for, and are not reported.
@@ -47,6 +49,7 @@ impl<'a> Limits<'a> {
             deadline,
             kept: Duration::ZERO,
             n_steps: 0,
+            told_steps: None,
             reported_m: None,
             hides_paths: false,
         }
@@ -108,9 +111,8 @@ impl<'a> Limits<'a> {
         if self.deadline.is_some_and(late) {
             return Err(Status::TimedOut);
         }
-        self.observer.on_event(&Event::Progress {
-            n_steps: self.n_steps,
-        });
+        let n_steps = self.told_steps();
+        self.observer.on_event(&Event::Progress { n_steps });
         Ok(())
     }
 
@@ -150,14 +152,17 @@ impl<'a> Limits<'a> {
     }
 
     /// The same deadline and cancel flag without the budget, for work that does not count as
-    /// search.
+    /// search: it has a count of its own, while observers are told that of the query, which stands
+    /// still.
     pub fn without_budget(&mut self) -> Limits<'_> {
+        let told_steps = Some(self.told_steps());
         Limits {
             observer: &mut *self.observer,
             budget_steps: None,
             deadline: self.deadline,
             kept: self.kept,
             n_steps: 0,
+            told_steps,
             reported_m: self.reported_m,
             hides_paths: self.hides_paths,
         }
@@ -192,7 +197,7 @@ impl<'a> Limits<'a> {
         self.tell(&Event::Improved {
             path,
             length_m,
-            n_steps: self.n_steps,
+            n_steps: self.told_steps(),
         });
     }
 
@@ -217,6 +222,11 @@ impl<'a> Limits<'a> {
     /// Steps counted so far.
     pub fn n_steps(&self) -> u64 {
         self.n_steps
+    }
+
+    /// Steps of the query that observers are told of.
+    fn told_steps(&self) -> u64 {
+        self.told_steps.unwrap_or(self.n_steps)
     }
 }
 
@@ -248,6 +258,33 @@ mod tests {
         let mut limits = Limits::new(&mut nobody, Some(5), None);
         assert_eq!([3, 3, 3].map(|n| limits.take(n)), [3, 2, 0]);
         assert_eq!(limits.n_steps(), 5);
+    }
+
+    struct Steps(Vec<u64>);
+
+    impl Observer for Steps {
+        fn on_event(&mut self, event: &Event) {
+            if let Event::Progress { n_steps } = event {
+                self.0.push(*n_steps);
+            }
+        }
+    }
+
+    #[test]
+    fn work_aside_tells_the_steps_of_the_query() {
+        let mut told = Steps(Vec::new());
+        let mut limits = Limits::new(&mut told, None, None);
+        limits.without_budget().long_step().unwrap();
+        limits.take(300);
+        limits.look().unwrap();
+        limits.aside().long_step().unwrap();
+        limits
+            .without_budget()
+            .without_deadline()
+            .long_step()
+            .unwrap();
+        limits.long_step().unwrap();
+        assert_eq!(told.0, [0, 0, 300, 300, 300, 300, 301]);
     }
 
     #[test]

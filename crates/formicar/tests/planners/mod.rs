@@ -233,11 +233,16 @@ struct Watch {
     ticks: u64,
     cancel: bool,
     n_improved: usize,
+    n_steps: u64,
 }
 
 impl Observer for Watch {
     fn on_event(&mut self, event: &Event) {
         self.n_improved += usize::from(matches!(event, Event::Improved { .. }));
+        if let Event::Progress { n_steps } | Event::Improved { n_steps, .. } = event {
+            assert!(*n_steps >= self.n_steps, "{n_steps} after {}", self.n_steps);
+            self.n_steps = *n_steps;
+        }
     }
 
     fn elapsed(&mut self) -> Option<Duration> {
@@ -256,6 +261,7 @@ fn a_deadline_and_a_cancel_stop_it_and_are_named(name: PlannerName) {
         ticks: 0,
         cancel: true,
         n_improved: 0,
+        n_steps: 0,
     };
     assert_eq!(
         plan_with(name, &case, &case.request, &mut watch).status(),
@@ -271,6 +277,7 @@ fn a_deadline_and_a_cancel_stop_it_and_are_named(name: PlannerName) {
         Status::TimedOut
     );
     assert_eq!(watch.n_improved, 0);
+    watch.n_steps = 0;
     assert_eq!(
         plan_with(name, &case, &case.request, &mut watch).status(),
         Status::Found
