@@ -1,4 +1,4 @@
-//! NumPy arrays as the cells of a map.
+//! `NumPy` arrays as the cells of a map.
 
 use crate::errors;
 use formicar::map::format::{GreyImage, RosMapDescription};

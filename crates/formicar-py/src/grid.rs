@@ -18,6 +18,9 @@ use pyo3::types::PyBytes;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
+/// The largest yaw of an origin: a turn, rounded up, as in files. A larger one is in degrees.
+const MAX_YAW_RAD: f64 = std::f64::consts::TAU + 1e-4;
+
 /// A map, and where it comes from.
 #[pyclass(frozen, module = "formicar._formicar")]
 #[derive(Debug)]
@@ -92,6 +95,13 @@ impl Grid {
             .into());
         }
         let [x, y, yaw] = origin;
+        if yaw.is_finite() && yaw.abs() > MAX_YAW_RAD {
+            return Err(errors::map(format!(
+                "the origin's yaw is {yaw}; it must be in radians, within a turn; hint: {yaw} degrees are {:.4}",
+                yaw.to_radians()
+            ))
+            .into());
+        }
         // Sizes are refused before anything is copied.
         let (n_rows, n_cols) = (data.shape()[0], data.shape()[1]);
         let frame = GridFrame::new(n_cols, n_rows, resolution_m, Pose2::new(x, y, yaw))?;

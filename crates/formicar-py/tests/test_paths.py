@@ -69,6 +69,11 @@ def test_what_collides_turns_too_sharply_or_jumps_is_named(hall: OccupancyGrid) 
         ([["a", "b"]], TypeError, "real numbers"),
         ([[1.0, 2.0], [3.0]], TypeError, "no array"),
         (np.zeros((2, 2), dtype=complex), TypeError, "complex"),
+        (
+            np.zeros((2, 2), dtype=object),
+            TypeError,
+            r"path is of dtype object; expected real numbers; hint: \.astype\(float\)",
+        ),
     ],
 )
 def test_what_is_no_path_is_refused(

@@ -32,7 +32,7 @@ def test_a_path_is_certified_and_ends_where_it_was_asked_to(plan: Plan) -> None:
     assert plan.segments["length"].sum() == pytest.approx(metrics.length_m)
     assert set(plan.segments["direction"]) <= {-1, 1}
     assert (plan.start, plan.goal, plan.seed, plan.planner) == (START, GOAL, 7, "formicar")
-    assert not plan.poses.flags.writeable
+    assert not plan.poses.flags.writeable and not plan.xy.flags.writeable
 
 
 def test_the_same_seed_gives_the_same_path(planner: Planner, plan: Plan) -> None:
@@ -92,6 +92,8 @@ def test_a_gap_is_named(planner: Planner) -> None:
         ({"start_heading": "up"}, "exact"),
         ({"goal_tolerance": 0.1}, "two numbers"),
         ({"goal_tolerance": (0.1, -1.0)}, "yaw = -1"),
+        ({"via": 3}, "via = 3; expected a sequence of points"),
+        ({"via": np.array(3.0)}, "expected a sequence of points"),
         ({"via": [(1.0,)]}, "via point"),
         ({"via": [{"where": (1.0, 1.0)}]}, "via"),
         ({"keep_out": [(1.0, 2.0)]}, "keep_out"),
@@ -99,6 +101,7 @@ def test_a_gap_is_named(planner: Planner) -> None:
         ({"keep_out": [[(0.0, 0.0), (1.0, 1.0), (0.0, float("nan"))]]}, "not finite"),
         ({"soft_costs": np.zeros((2, 2))}, "shape"),
         ({"soft_costs": np.zeros(4)}, "shape"),
+        ({"soft_costs": np.zeros((80, 120)), "soft_weight": "a"}, "soft_weight = 'a'"),
         ({"continuous_curvature": -1.0}, "max_rate_per_m2"),
     ],
 )
@@ -179,6 +182,13 @@ def test_continuous_curvature_is_certified(planner: Planner) -> None:
     plan = planner.plan(START, GOAL, continuous_curvature=2.0)
     assert plan.certificate and plan.certificate.is_curvature_continuous
     assert 0 < plan.certificate.max_curvature_rate_per_m2 <= 2.0 * (1 + 1e-9)
+
+
+def test_continuous_curvature_needs_a_steering_rate(hall: OccupancyGrid) -> None:
+    preset = formicar.Vehicle.preset("warehouse_amr").measures
+    slow = {name: preset[name] for name in preset if name != "max_steer_rate_rad_per_s"}
+    with pytest.raises(InvalidRequest, match="max_steer_rate"):
+        Planner(hall, formicar.Vehicle(**slow)).plan(START, GOAL, continuous_curvature=True)
 
 
 def test_closed_areas_are_kept_out_of_for_this_query_alone(planner: Planner, plan: Plan) -> None:
@@ -265,6 +275,8 @@ def test_parameters_by_dict_file_and_keyword(tmp_path: Path, hall: OccupancyGrid
         ({"hybrid_astar": 3}, "hybrid_astar"),
         ({"planner": "ants"}, "lei2020"),
         ({"n_threads": 0}, "n_threads"),
+        ({"n_threads": "a"}, "n_threads = 'a'; it must be a whole number"),
+        ({"n_threads": 1.5}, "n_threads = 1.5"),
     ],
 )
 def test_parameters_that_cannot_be_are_refused(
@@ -375,5 +387,16 @@ def test_wrong_kinds_of_arguments_are_named(planner: Planner) -> None:
         planner.plan(*ends, deadline_s="1")  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="previous is of type int; expected a Plan"):
         planner.replan(START, GOAL, 3)  # type: ignore[arg-type]
+    for soft_costs, dtype in (
+        ("a", "<U1"),
+        (np.full((80, 120), None), "object"),
+        ([[1j]], "complex"),
+    ):
+        with pytest.raises(TypeError, match=f"soft_costs is of dtype {dtype}"):
+            planner.plan(*ends, soft_costs=soft_costs)
+    with pytest.raises(TypeError, match="on_progress = 3; expected a callable"):
+        planner.plan(*ends, on_progress=3)  # type: ignore[arg-type]
+    with pytest.raises(formicar.ConfigError, match="seed = 'a'"):
+        formicar.tune(lambda values: 1.0, {"a": (0.0, 1.0)}, seed="a")  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="hint: 'seed'"):
         formicar.tune(lambda values: 1.0, {"a": (0.0, 1.0)}, sed=1)  # type: ignore[call-arg]

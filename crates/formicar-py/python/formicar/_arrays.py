@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, SupportsFloat
 
 from ._formicar import InvalidPath
 from ._lazy import np
@@ -45,12 +45,44 @@ def rows_of(data: ArrayLike, name: str, n_cols: tuple[int, ...]) -> NDArray[np.f
         Another shape.
     """
     array = plain(data, name)
-    if array.dtype.kind not in "iuf":
-        raise TypeError(f"{name} is of dtype {array.dtype}; expected real numbers")
+    check_real(array, name, "iuf")
     if array.ndim != 2 or array.shape[1] not in n_cols:
         columns = " or ".join(f"(n, {n})" for n in n_cols)
         raise InvalidPath(f"{name} has shape {array.shape}; expected {columns}")
     return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def check_real(array: NDArray[Any], name: str, kinds: str) -> None:
+    """Refuse an array whose dtype is of none of NumPy's kinds.
+
+    Raises
+    ------
+    TypeError
+        Another dtype.
+    """
+    if array.dtype.kind not in kinds:
+        hint = "; hint: .astype(float)" if array.dtype.kind == "O" else ""
+        raise TypeError(f"{name} is of dtype {array.dtype}; expected real numbers{hint}")
+
+
+def number_of(value: Any, name: str, unit: str, error: type[ValueError]) -> float:
+    """Return a real number; text is none."""
+    try:
+        if isinstance(value, SupportsFloat):
+            return float(value)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise error(f"{name} = {value!r}; expected a number{unit}")
+
+
+def whole_of(value: Any, name: str, error: type[ValueError]) -> int:
+    """Return a whole number."""
+    import operator
+
+    try:
+        return operator.index(value)
+    except TypeError:
+        raise error(f"{name} = {value!r}; it must be a whole number") from None
 
 
 def pose_of(value: Any, name: str, error: type[ValueError]) -> tuple[float, float, float]:

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
 from . import _formicar
-from ._arrays import frozen, plain, pose_of
+from ._arrays import frozen, number_of, plain, pose_of, whole_of
 from ._formicar import InvalidMap
 from ._hints import suggests
 from ._records import Pose
@@ -33,7 +33,8 @@ class OccupancyGrid:
     resolution : float
         Side of a cell, meters.
     origin : (float, float, float), optional
-        World pose ``(x, y, yaw)`` of the lower left corner, meters and radians.
+        World pose ``(x, y, yaw)`` of the lower left corner, meters and radians; a yaw beyond a turn
+        is refused, since it is in degrees.
     values : {"occupancy", "costmap", "grey"}, optional
         ``"costmap"`` reads uint8 costs of Nav2 (0 free, 254 lethal, 255 unknown), ``"grey"`` uint8
         or uint16 shades of an image (black occupied, white free) by the thresholds of the map
@@ -77,7 +78,7 @@ class OccupancyGrid:
             raise InvalidMap(f'row0 = {row0!r}; expected "bottom" or "top"')
         self._core = _formicar.Grid.of_array(
             plain(data, "the map's array"),
-            float(resolution),
+            number_of(resolution, "resolution", " of meters per cell", InvalidMap),
             pose_of(origin, "origin", InvalidMap),
             values,
             row0 == "top",
@@ -125,8 +126,12 @@ class OccupancyGrid:
         InvalidMap
             A file that is no map.
         """
-        if unknown_grey is not None and not 0 <= unknown_grey <= 255:
-            raise InvalidMap(f"unknown_grey = {unknown_grey}; it must be 0 to 255")
+        if resolution is not None:
+            resolution = number_of(resolution, "resolution", " of meters per cell", InvalidMap)
+        if unknown_grey is not None:
+            unknown_grey = whole_of(unknown_grey, "unknown_grey", InvalidMap)
+            if not 0 <= unknown_grey <= 255:
+                raise InvalidMap(f"unknown_grey = {unknown_grey}; it must be 0 to 255")
         return cls._of(_formicar.Grid.load(os.fspath(path), resolution, unknown_grey))
 
     @classmethod
@@ -210,6 +215,8 @@ class OccupancyGrid:
         >>> OccupancyGrid(walls, 0.5).distance_field()
         array([[0. , 0.5, 1. , 1.5, 2. ]])
         """
+        if max_distance is not None:
+            max_distance = number_of(max_distance, "max_distance", " of meters", InvalidMap)
         return self._core.distance_field(max_distance)
 
     def with_unknown(self, policy: Literal["free", "occupied"]) -> OccupancyGrid:

@@ -82,8 +82,13 @@ class Plan:
     >>> import formicar
     >>> planner = formicar.Planner("parking-lot")
     >>> plan = planner.plan(*planner.map.requests["back-in"])
+<<<<<<< HEAD
     >>> plan.poses.dtype.names
     ('x', 'y', 'heading', 's', 'direction', 'curvature', 'steer', 'clearance', 'speed', 'time')
+=======
+    >>> plan.poses.dtype.names[:5], plan.poses.dtype.names[5:]
+    (('x', 'y', 'heading', 's', 'direction'), ('curvature', 'steer', 'clearance', 'speed', 'time'))
+>>>>>>> w16
     >>> round(plan.certificate.min_clearance_m, 2)
     0.25
     >>> cut = planner.plan(*planner.map.requests["back-in"], budget=10)
@@ -147,10 +152,10 @@ class Plan:
         """
         return frozen(table_of(self._core.columns(), {"direction": "i1"}))
 
-    @property
+    @cached_property
     def xy(self) -> NDArray[np.float64]:
-        """Positions of `poses`, shape (n, 2), meters."""
-        return np.column_stack((self.poses["x"], self.poses["y"]))
+        """Positions of `poses`, shape (n, 2), meters; read-only."""
+        return frozen(np.column_stack((self.poses["x"], self.poses["y"])))
 
     @cached_property
     def segments(self) -> NDArray[np.void]:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, Literal, SupportsFloat, SupportsIndex
 
 from . import _formicar
-from ._arrays import plain
+from ._arrays import check_real, number_of, plain, whole_of
 from ._formicar import ConfigError, InvalidRequest
 from ._hints import nearest, suggests
 from ._lazy import np
@@ -68,6 +68,7 @@ class Planner:
         **settings: Any,
     ) -> None:
         map, vehicle = scene_of(map, vehicle)
+        n_threads = whole_of(n_threads, "n_threads", ConfigError)
         if not 1 <= n_threads <= 1024:
             raise ConfigError(f"n_threads = {n_threads}; it must be 1 to 1024")
         tables = [_table_of(config), settings]
@@ -287,26 +288,34 @@ class Planner:
         on_progress: Progress | bool | None,
         previous: _formicar.Plan | None,
     ) -> Plan:
-        number = _index(seed, "seed")
+        number = whole_of(seed, "seed", InvalidRequest)
         if isinstance(seed, bool) or not 0 <= number < 2**64:
             raise InvalidRequest(f"seed = {seed!r}; it must be a whole number from 0 to 2**64 - 1")
         costs = None
         if soft_costs is not None:
-            costs = np.ascontiguousarray(plain(soft_costs, "soft_costs"), dtype=np.float64)
+            array = plain(soft_costs, "soft_costs")
+            check_real(array, "soft_costs", "biuf")
+            costs = np.ascontiguousarray(array, dtype=np.float64)
             if costs.ndim != 2:
                 raise InvalidRequest(
                     f"soft_costs has shape {costs.shape}, the map {self.map.shape}; hint: one "
                     "value from 0 (indifferent) to 1 (unwanted) for each cell"
                 )
         areas = polygons(keep_out) if keep_out is not None else None
-        manner = _Manner(number, None, keep_ants, areas, soft_weight)
+        weight = number_of(soft_weight, "soft_weight", "", InvalidRequest)
+        manner = _Manner(number, None, keep_ants, areas, weight)
         if on_progress is True:
             from ._progress import bar
 
             with bar(request.get("budget_steps"), "steps") as listener:
                 manner.listener = listener
                 return Plan._of(self._core.plan(request, manner, costs, previous))
-        if on_progress not in (None, False):
+        if on_progress is not None and on_progress is not False:
+            if not callable(on_progress):
+                raise TypeError(
+                    f"on_progress = {on_progress!r}; expected a callable that takes an event, a "
+                    "dict, or True for a progress bar"
+                )
             manner.listener = on_progress
         return Plan._of(self._core.plan(request, manner, costs, previous))
 
@@ -344,7 +353,8 @@ class Planner:
         >>> int(planner.map.data[20, 42])
         100
         """
-        if min(_index(col, "col"), _index(row, "row")) < 0 or max(col, row) >= 2**32:
+        col, row = whole_of(col, "col", InvalidRequest), whole_of(row, "row", InvalidRequest)
+        if min(col, row) < 0 or max(col, row) >= 2**32:
             raise InvalidRequest(f"col, row = {col}, {row}; both must be 0 to 2**32 - 1")
         patch = OccupancyGrid(array, self.map.resolution)
         self._core.update_map(patch._core, col, row)
@@ -386,15 +396,6 @@ def _planner_of(
     map: OccupancyGrid, vehicle: Vehicle, config: dict[str, Any], n_threads: int
 ) -> Planner:
     return Planner(map, vehicle, config, n_threads=n_threads)
-
-
-def _index(value: Any, name: str) -> int:
-    import operator
-
-    try:
-        return operator.index(value)
-    except TypeError:
-        raise InvalidRequest(f"{name} = {value!r}; it must be a whole number") from None
 
 
 def scene_of(
@@ -444,15 +445,16 @@ def request_of(
             )
         request["deadline_ms"] = float(deadline_s) * 1e3
     if budget is not None:
-        if isinstance(budget, bool) or not 0 <= _index(budget, "budget") < 2**64:
+        n_steps = whole_of(budget, "budget", InvalidRequest)
+        if isinstance(budget, bool) or not 0 <= n_steps < 2**64:
             raise InvalidRequest(f"budget = {budget!r}; it must be a whole number from 0 on")
-        request["budget_steps"] = _index(budget, "budget")
+        request["budget_steps"] = n_steps
     words = [("motion", motion), ("start_heading", start_heading), ("goal_heading", goal_heading)]
     request.update((name, word) for name, word in words if word is not None)
     if goal_tolerance is not None:
         request["goal_tolerance"] = _tolerance(goal_tolerance)
     if via is not None:
-        request["via"] = [_via(place) for place in via]
+        request["via"] = [_via(place) for place in _places(via)]
     if continuous_curvature is not False:
         rate = {} if continuous_curvature is True else {"max_rate_per_m2": continuous_curvature}
         request["curvature"] = {"continuous": rate}
@@ -478,6 +480,16 @@ def _tolerance(value: Any) -> dict[str, Any]:
             f"goal_tolerance = {value!r}; expected meters and radians: two numbers"
         ) from None
     return {"xy": xy, "yaw": yaw}
+
+
+def _places(via: Any) -> Iterator[Any]:
+    try:
+        return iter(via)
+    except TypeError:
+        raise InvalidRequest(
+            f"via = {via!r}; expected a sequence of points, each (x, y) or (x, y, heading) in "
+            "meters and radians, or a dict"
+        ) from None
 
 
 def _via(place: Any) -> Any:

@@ -155,7 +155,7 @@ def track(
     >>> import formicar
     >>> planner = formicar.Planner("lei-map1")
     >>> plan = planner.plan(*next(iter(planner.map.requests.values())))
-    >>> drive = formicar.track(plan, speed_mps=0.5)
+    >>> drive = formicar.track(plan, speed_mps=0.25)
     >>> bool(drive), drive.trace.dtype.names[:4]
     (True, ('t', 'x', 'y', 'heading'))
     """

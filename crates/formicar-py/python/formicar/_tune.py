@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _formicar
-from ._arrays import frozen
+from ._arrays import frozen, whole_of
 from ._formicar import ConfigError
 from ._hints import suggests
 from ._lazy import np
@@ -175,6 +175,7 @@ def search(
     progress: bool,
 ) -> Tuning:
     """Run a bee colony whose candidates of a phase are evaluated at once."""
+    seed = whole_of(seed, "seed", ConfigError)
     if not 0 <= seed < 2**64:
         raise ConfigError(f"seed = {seed}; it must be 0 to 2**64 - 1")
     listed = [{"name": name, "kind": of._kind()} for name, of in dimensions.items()]

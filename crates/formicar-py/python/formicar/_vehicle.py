@@ -27,7 +27,7 @@ class Vehicle:
         ``rear_overhang_m`` in meters (overhangs may be negative), and one of ``max_steer_rad``,
         ``max_steer_deg`` and ``min_turning_radius_m``. ``footprint``, shape (n, 2) in meters around
         the rear axle, gives any convex polygon instead. Optional: ``track_width_m``,
-        ``safety_margin_m``, ``max_steer_rate_rad_per_s``, ``speed_mps``.
+        ``safety_margin_m``, ``max_steer_rate_rad_per_s``, ``speed_mps``, ``max_acceleration_mps2``.
 
     Raises
     ------
