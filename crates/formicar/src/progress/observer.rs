@@ -111,7 +111,7 @@ pub enum Event<'a> {
     /// The fields of the query are ready and the search begins.
     SearchStarted,
     /// The number of search steps so far, every few hundred steps or less, and while a query is
-    /// prepared.
+    /// prepared or a path smoothed. It never falls within a query.
     Progress {
         /// Steps so far.
         n_steps: u64,
