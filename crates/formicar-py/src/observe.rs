@@ -94,8 +94,9 @@ impl Watch {
 
     fn tell_steps(&mut self, n_steps: u64) {
         if self.progress_at.elapsed() >= PROGRESS_EVERY {
-            self.progress_at = Instant::now();
             self.tell("progress", |members| members.set_item("n_steps", n_steps));
+            // From the end of the call on: a slow listener is not called at every look.
+            self.progress_at = Instant::now();
         }
     }
 

@@ -20,6 +20,9 @@ use pyo3::prelude::*;
 /// The largest coordinate of a path, meters; as in files.
 const MAX_COORDINATE_M: f64 = 1e9;
 
+/// The longest path that is measured, meters: what it costs grows with the length.
+const MAX_LENGTH_M: f64 = 1e4;
+
 /// The most poses of a sampled path.
 const MAX_POSES: f64 = 1e7;
 
@@ -180,6 +183,13 @@ pub(crate) fn rows(path: &CurvePath, spacing_m: f64) -> Vec<[f64; 6]> {
 impl Track {
     fn of_samples(samples: &Samples, is_point: bool) -> PyResult<Self> {
         let motion = if is_point { Motion::Point } else { Motion::Car };
+        let legs = samples.points.windows(2);
+        let length_m: f64 = legs.map(|leg| (leg[1] - leg[0]).norm()).sum();
+        if length_m > MAX_LENGTH_M {
+            return Err(errors::path(format!(
+                "the path is {length_m:.0} m long; it may be at most {MAX_LENGTH_M:.0} m; hint: write meters, and check parts of a longer one"
+            )));
+        }
         let path = ForeignPath::new(samples, motion);
         Ok(Self {
             path: path.ok_or_else(|| errors::path("the path has no poses"))?,

@@ -66,6 +66,7 @@ def test_what_collides_turns_too_sharply_or_jumps_is_named(hall: OccupancyGrid) 
         (np.zeros((0, 2)), InvalidPath, r"shape \(0, 2\)"),
         ([[1.0, float("nan")]], InvalidPath, r"path\[0, 1\] = NaN"),
         ([[1.0, 1e12]], InvalidPath, "1e9"),
+        ([[0.0, 0.0], [2e4, 0.0]], InvalidPath, "20000 m long; it may be at most 10000 m"),
         ([["a", "b"]], TypeError, "real numbers"),
         ([[1.0, 2.0], [3.0]], TypeError, "no array"),
         (np.zeros((2, 2), dtype=complex), TypeError, "complex"),
