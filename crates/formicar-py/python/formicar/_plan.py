@@ -82,13 +82,8 @@ class Plan:
     >>> import formicar
     >>> planner = formicar.Planner("parking-lot")
     >>> plan = planner.plan(*planner.map.requests["back-in"])
-<<<<<<< HEAD
-    >>> plan.poses.dtype.names
-    ('x', 'y', 'heading', 's', 'direction', 'curvature', 'steer', 'clearance', 'speed', 'time')
-=======
     >>> plan.poses.dtype.names[:5], plan.poses.dtype.names[5:]
     (('x', 'y', 'heading', 's', 'direction'), ('curvature', 'steer', 'clearance', 'speed', 'time'))
->>>>>>> w16
     >>> round(plan.certificate.min_clearance_m, 2)
     0.25
     >>> cut = planner.plan(*planner.map.requests["back-in"], budget=10)
