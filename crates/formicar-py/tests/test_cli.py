@@ -30,7 +30,8 @@ def without_times(document: dict[str, Any]) -> dict[str, Any]:
     ],
 )
 def test_the_same_plan_bit_for_bit(program: Path, name: str, planner: str, seed: int) -> None:
-    words = ("plan", "--map", name, "--planner", planner, "--seed", str(seed), "--json")
+    how = ("--planner", planner, "--seed", str(seed), "--budget", "none")
+    words = ("plan", "--map", name, *how, "--json")
     answer = json.loads(run(program, *words).stdout)
     grid = OccupancyGrid.builtin(name)
     plan = Planner(grid, planner=planner).plan(*next(iter(grid.requests.values())), seed=seed)
