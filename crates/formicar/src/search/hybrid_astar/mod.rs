@@ -77,28 +77,31 @@ impl<'a> Stage<'a> {
         let (coarse, exact, fine) = (problem.clone(), problem.exact(), problem.refined());
         let from_goal = problem.swapped();
         let (exact_from_goal, fine_from_goal) = (exact.swapped(), fine.swapped());
-        // Who seeks the cheapest path is not served by another lattice's first one.
-        let short_patience = if problem.seeks_cheapest() {
+        // Who seeks the cheapest path is not served by another lattice's first one: the long turn
+        // comes at once, and not again.
+        let is_patient = problem.seeks_cheapest();
+        let patience = if is_patient {
             LONG_PATIENCE
         } else {
             SHORT_PATIENCE
         };
+        let again = |problem: Option<DriveProblem<'a>>| problem.filter(|_| !is_patient);
         let roomy = problem.keeps_clearance().then(|| coarse.clone());
         let stages = if problem.is_refined() {
             vec![(Some(fine), Wide, u64::MAX)]
         } else {
             vec![
                 (roomy, Roomy, LONG_PATIENCE),
-                (Some(coarse.clone()), Turning, short_patience),
-                (from_goal.clone(), Turning, short_patience),
-                (Some(exact.clone()), Wide, short_patience),
+                (Some(coarse.clone()), Turning, patience),
+                (from_goal.clone(), Turning, patience),
+                (Some(exact.clone()), Wide, patience),
                 (Some(fine.clone()), Wide, SHORT_PATIENCE),
                 (fine_from_goal.clone(), Wide, SHORT_PATIENCE),
                 (Some(fine.clone()), Wide, MIDDLE_PATIENCE),
                 (fine_from_goal, Wide, MIDDLE_PATIENCE),
-                (Some(coarse), Turning, LONG_PATIENCE),
-                (from_goal, Turning, LONG_PATIENCE),
-                (Some(exact.clone()), Wide, LONG_PATIENCE),
+                (again(Some(coarse)), Turning, LONG_PATIENCE),
+                (again(from_goal), Turning, LONG_PATIENCE),
+                (again(Some(exact.clone())), Wide, LONG_PATIENCE),
                 (exact_from_goal, Wide, LONG_PATIENCE),
                 (Some(exact), Sure, 10 * LONG_PATIENCE),
                 (Some(fine), Sure, u64::MAX),
