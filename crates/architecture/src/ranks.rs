@@ -16,6 +16,7 @@ pub const LIBRARY: &[&str] = &[
     "scenario",
     "validation",
     "metrics",
+    "motion",
     "progress",
     "layers",
     "objective",

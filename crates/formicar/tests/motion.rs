@@ -1,6 +1,7 @@
 //! Speeds and times along paths.
 
-use formicar::path::{CurvePath, Direction, SpeedLimits, SpeedProfile};
+use formicar::motion::fastest;
+use formicar::path::{CurvePath, Direction, SpeedLimits};
 use formicar::{Pose2, Seed, Vehicle, VehicleParameters};
 
 /// A path of lines, arcs and clothoids in both gears.
@@ -34,15 +35,17 @@ fn limits(seed: u64) -> SpeedLimits {
         max_lateral_mps2: stream.range(0.2, 3.0),
         max_acceleration_mps2: stream.range(0.1, 2.0),
         max_steer_rate_rad_per_s: (seed % 3 > 0).then(|| stream.range(0.1, 1.0)),
+        ..SpeedLimits::default()
     }
 }
 
 /// Speed, time and standing time at each sample, and the time of the whole drive.
 fn numbers(path: &CurvePath, vehicle: &Vehicle, limits: &SpeedLimits) -> (Vec<[f64; 3]>, f64) {
-    let profile = SpeedProfile::new(path, vehicle, limits, 0.1);
-    let poses = profile.poses.iter();
+    let timed = fastest(path, vehicle, limits, 0.1);
+    let poses = timed.timed_poses(0.1);
+    let poses = poses.iter();
     let poses = poses.map(|p| [p.speed_mps, p.time_s, p.stands_s]).collect();
-    (poses, profile.travel_time_s)
+    (poses, timed.duration_s())
 }
 
 /// FNV-1a over the bits of all numbers.

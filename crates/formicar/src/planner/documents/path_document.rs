@@ -2,9 +2,8 @@
 
 use crate::collision::{Body, ObstacleMap};
 use crate::geometry::{Pose2, wrap_angle};
-use crate::path::{
-    CurvePath, CurveSegment, Direction, Spacing, SpeedLimits, SpeedProfile, TimedPose,
-};
+use crate::motion::fastest;
+use crate::path::{CurvePath, CurveSegment, Direction, Spacing, SpeedLimits, TimedPose};
 use crate::vehicle::Vehicle;
 use std::fmt::Write;
 
@@ -172,7 +171,7 @@ fn after_cusps<'a>(
 /// Speed and time at each sample; none where the vehicle does not say how fast it drives.
 fn timed(path: &CurvePath, vehicle: &Vehicle, spacing: Spacing) -> Vec<TimedPose> {
     SpeedLimits::of(vehicle).map_or_else(Vec::new, |limits| {
-        SpeedProfile::new(path, vehicle, &limits, spacing).poses
+        fastest(path, vehicle, &limits, spacing).timed_poses(spacing)
     })
 }
 
