@@ -107,3 +107,303 @@ const RECORD: [(u64, u64); 16] = [
     (0x403f_6711_fd10_46a6, 0x1429_a8a3_05f4_dc5d),
     (0x3ff6_bae6_ff3a_13f4, 0x967a_06ad_71ee_ce1b),
 ];
+
+/// Vehicles, paths and obstacles that cross.
+mod crossings {
+    use super::{limits, path};
+    use crate::quick_or_full;
+    use formicar::motion::{
+        MotionConfig, MotionError, MotionPlan, MotionProblem, MotionStatus, ProfileSource,
+        plan_motion,
+    };
+    use formicar::path::{CurvePath, Phase, SpeedLimits, TimedPath};
+    use formicar::scenario::{
+        MovingObstacle, ObstacleMotion, ObstacleShape, Predicted, Predictions, TimedWaypoint,
+    };
+    use formicar::validation::{DriveRules, TimedReport, TimedViolationKind, judge_in_time};
+    use formicar::{Point2, Pose2, Seed, Vehicle};
+
+    const HORIZON_S: f64 = 30.0;
+
+    fn obstacle(seed: u64, i: u64, path: &CurvePath) -> MovingObstacle {
+        let mut stream = Seed(seed).stream([19, i]);
+        // It comes by some place of the path at some time.
+        let at = path.pose_at(stream.range(0.3, 1.0) * path.length_m());
+        let (angle, speed_mps) = (stream.range(-3.0, 3.0), stream.range(0.0, 1.6));
+        let t_s = stream.range(0.0, 20.0);
+        let velocity = Point2::unit(angle) * speed_mps;
+        let beside = Point2::new(stream.range(-1.5, 1.5), stream.range(-1.5, 1.5));
+        let begin = at.position() - velocity * t_s + beside;
+        let pose = [begin.x, begin.y, angle];
+        let motion = match stream.below(3) {
+            0 => ObstacleMotion::Velocity {
+                pose,
+                velocity_mps: [velocity.x, velocity.y],
+            },
+            1 => ObstacleMotion::Turn {
+                pose,
+                speed_mps,
+                rate_rad_per_s: stream.range(-0.5, 0.5),
+            },
+            _ => {
+                let stop = at.position() + beside;
+                let away = stop + Point2::unit(angle + 1.0) * stream.range(0.0, 8.0);
+                ObstacleMotion::Waypoints(vec![
+                    TimedWaypoint { t_s: 1.0, pose },
+                    TimedWaypoint {
+                        t_s: 2.0 + t_s,
+                        pose: [stop.x, stop.y, angle + 0.5],
+                    },
+                    TimedWaypoint {
+                        t_s: 12.0 + t_s,
+                        pose: [away.x, away.y, angle - 1.0],
+                    },
+                ])
+            }
+        };
+        let shape = match stream.below(2) {
+            0 => ObstacleShape::Disc {
+                radius_m: stream.range(0.2, 0.6),
+            },
+            _ => ObstacleShape::Polygon(vec![[-0.6, -0.3], [0.5, -0.4], [0.7, 0.2], [-0.5, 0.4]]),
+        };
+        MovingObstacle {
+            name: None,
+            shape,
+            motion,
+            growth_mps: [0.0, stream.range(0.0, 0.03)][stream.below(2)],
+        }
+    }
+
+    /// Distance of the vehicle from an obstacle, by pairs of edges and corners.
+    fn distance_m(vehicle: &Vehicle, pose: Pose2, obstacle: &Predicted, t_s: f64) -> f64 {
+        let body = vehicle.footprint().placed(pose);
+        let theirs = obstacle.corners_at(t_s);
+        let ring = |corners: &[Point2]| {
+            let n = corners.len();
+            (0..n)
+                .map(|i| (corners[i], corners[(i + 1) % n]))
+                .collect::<Vec<_>>()
+        };
+        let to_segment = |p: Point2, (a, b): (Point2, Point2)| {
+            let d = b - a;
+            let share = if d.norm() > 0.0 {
+                ((p - a).dot(d) / d.dot(d)).clamp(0.0, 1.0)
+            } else {
+                0.0
+            };
+            p.distance(a + d * share)
+        };
+        let mut least = f64::INFINITY;
+        for &own in &ring(body.corners()) {
+            for &other in &ring(&theirs) {
+                least = least
+                    .min(to_segment(own.0, other))
+                    .min(to_segment(other.0, own));
+            }
+        }
+        let inside = theirs.iter().any(|&p| body.contains(p));
+        if inside {
+            -1.0
+        } else {
+            least - obstacle.radius_at(t_s)
+        }
+    }
+
+    /// The least distance of a drive, sampled, and where it ends.
+    fn simulated_m(vehicle: &Vehicle, timed: &TimedPath, all: &Predictions, step_s: f64) -> f64 {
+        let end_s = timed.duration_s().max(all.horizon_s());
+        let n_steps = (end_s / step_s).ceil() as usize;
+        let at_times = (0..=n_steps).map(|i| {
+            let t_s = i as f64 * step_s;
+            let pose = timed.pose_at(t_s);
+            let distances = all.obstacles().iter();
+            let distances = distances.map(|o| distance_m(vehicle, pose, o, t_s));
+            distances.fold(f64::INFINITY, f64::min)
+        });
+        at_times.fold(f64::INFINITY, f64::min)
+    }
+
+    struct Crossing {
+        path: CurvePath,
+        vehicle: Vehicle,
+        predictions: Predictions,
+        config: MotionConfig,
+    }
+
+    fn crossing(seed: u64) -> Crossing {
+        let path = path(seed);
+        let mut stream = Seed(seed).stream([20, 0]);
+        let obstacles = (0..1 + stream.below(4) as u64).map(|i| obstacle(seed, i, &path));
+        let predictions = Predictions::new(obstacles.collect(), HORIZON_S).unwrap();
+        let limits = SpeedLimits {
+            max_braking_mps2: [None, Some(stream.range(0.5, 3.0))][stream.below(2)],
+            ..limits(seed)
+        };
+        let config = MotionConfig {
+            distance_m: stream.range(0.0, 0.3),
+            limits,
+            ..MotionConfig::default()
+        };
+        Crossing {
+            path,
+            vehicle: Vehicle::lei2020(),
+            predictions,
+            config,
+        }
+    }
+
+    impl Crossing {
+        fn plan(&self) -> Result<MotionPlan, MotionError> {
+            let problem = MotionProblem {
+                path: &self.path,
+                vehicle: &self.vehicle,
+                predictions: &self.predictions,
+                zones: None,
+            };
+            plan_motion(&problem, &self.config)
+        }
+
+        fn judge(&self, timed: &TimedPath) -> TimedReport {
+            let rules = DriveRules {
+                vehicle: &self.vehicle,
+                limits: &self.config.limits,
+                zones: None,
+                present_speed_mps: self.config.present_speed_mps,
+                predictions: &self.predictions,
+                distance_m: self.config.distance_m,
+            };
+            judge_in_time(&rules, timed)
+        }
+
+        fn standing_m(&self) -> f64 {
+            let standing = TimedPath::new(self.path.clone(), Vec::new());
+            simulated_m(&self.vehicle, &standing, &self.predictions, 0.01)
+        }
+    }
+
+    #[test]
+    fn plans_keep_their_distance_and_the_judge_agrees_with_a_simulation() {
+        let (mut n_fastest, mut n_lattice, mut n_waits, mut n_refused) = (0, 0, 0, 0);
+        let mut times = Vec::new();
+        for seed in 0..quick_or_full(300, 10_000) {
+            let crossing = crossing(seed);
+            let begun = std::time::Instant::now();
+            let planned = crossing.plan();
+            times.push(begun.elapsed().as_secs_f64() * 1e3);
+            let plan = match planned {
+                Ok(plan) => plan,
+                Err(MotionError::Unavoidable { t_s, .. }) => {
+                    // To stand is always allowed: then something must come to where it stands.
+                    // Regions are closed up to a step and a piece too far.
+                    let near_m = crossing.config.distance_m + 0.2 * 1.8 + 0.05;
+                    assert!(crossing.standing_m() < near_m, "{seed} {t_s}");
+                    n_refused += 1;
+                    continue;
+                }
+                Err(error) => panic!("{seed}: {error}"),
+            };
+            let report = crossing.judge(&plan.timed);
+            assert!(
+                report.valid,
+                "{seed} {:?}: {:#?}",
+                plan.source, report.violations
+            );
+            let truth_m = simulated_m(&crossing.vehicle, &plan.timed, &crossing.predictions, 0.01);
+            let proven_m = report.min_distance_m.unwrap();
+            assert!(proven_m <= truth_m + 1e-9, "{seed}: {proven_m} {truth_m}");
+            // Between two samples everything moves by at most 0.01 s of its speed.
+            assert!(truth_m - proven_m < 0.1, "{seed}: {proven_m} {truth_m}");
+            assert!(plan.timed.duration_s() >= plan.unhindered_s - 1e-9 || !plan.timed.arrives());
+            match (plan.status, plan.source) {
+                (MotionStatus::Waits, _) => n_waits += 1,
+                (_, ProfileSource::Fastest) => n_fastest += 1,
+                _ => n_lattice += 1,
+            }
+        }
+        println!(
+            "{n_fastest} undisturbed, {n_lattice} on the lattice, {n_waits} wait, {n_refused} refused"
+        );
+        assert!(n_fastest > 30 && n_lattice > 60 && n_waits > 10);
+    }
+
+    #[test]
+    fn no_delayed_start_is_faster() {
+        let mut n_compared = 0;
+        for seed in 0..quick_or_full(150, 2_000) {
+            let crossing = crossing(seed);
+            let Ok(plan) = crossing.plan() else { continue };
+            if plan.source == ProfileSource::Fastest {
+                continue;
+            }
+            let limits = &crossing.config.limits;
+            let free = formicar::motion::fastest(&crossing.path, &crossing.vehicle, limits, 0.1);
+            for i in 0..30 {
+                let delay_s = f64::from(i);
+                let standing = Phase {
+                    duration_s: delay_s,
+                    ..Phase::default()
+                };
+                let later = free.phases().iter().map(|phase| Phase {
+                    t_s: phase.t_s + delay_s,
+                    ..*phase
+                });
+                let phases = [standing].into_iter().chain(later).collect();
+                let delayed = TimedPath::new(crossing.path.clone(), phases);
+                let truth_m = simulated_m(&crossing.vehicle, &delayed, &crossing.predictions, 0.05);
+                // With room for what the regions close too much.
+                if truth_m > crossing.config.distance_m + 0.9 {
+                    n_compared += 1;
+                    let limit_s = delayed.duration_s() + 0.2 + 0.05 * free.duration_s();
+                    let stops = 0.5 * plan.timed.stops().len() as f64;
+                    assert!(
+                        plan.timed.duration_s() < limit_s + stops,
+                        "{seed} {delay_s}"
+                    );
+                    break;
+                }
+            }
+        }
+        println!("{n_compared} compared");
+        assert!(n_compared > 3);
+    }
+
+    #[test]
+    fn the_judge_refuses_drives_that_break_a_rule() {
+        let mut n_hits = 0;
+        for seed in 0..quick_or_full(100, 3_000) {
+            let crossing = crossing(seed);
+            let limits = &crossing.config.limits;
+            // Driven as if nothing moved.
+            let free = formicar::motion::fastest(&crossing.path, &crossing.vehicle, limits, 0.1);
+            let report = crossing.judge(&free);
+            let truth_m = simulated_m(&crossing.vehicle, &free, &crossing.predictions, 0.002);
+            let is_near = truth_m < crossing.config.distance_m;
+            let kinds: Vec<_> = report.violations.iter().map(|v| v.kind).collect();
+            assert!(
+                kinds
+                    .iter()
+                    .all(|&kind| kind == TimedViolationKind::Distance),
+                "{kinds:?}"
+            );
+            if is_near {
+                n_hits += 1;
+                assert!(!report.valid, "{seed}");
+            }
+            assert_eq!(report.valid, kinds.is_empty());
+            // Twice as fast, it breaks others.
+            let fast = free.phases().iter().map(|phase| Phase {
+                t_s: 0.5 * phase.t_s,
+                speed_mps: 2.0 * phase.speed_mps,
+                acceleration_mps2: 4.0 * phase.acceleration_mps2,
+                duration_s: 0.5 * phase.duration_s,
+                ..*phase
+            });
+            let fast = TimedPath::new(crossing.path.clone(), fast.collect());
+            let report = crossing.judge(&fast);
+            let has = |kind| report.violations.iter().any(|v| v.kind == kind);
+            assert!(has(TimedViolationKind::Acceleration), "{seed}");
+        }
+        assert!(n_hits > 20, "{n_hits}");
+    }
+}

@@ -90,10 +90,17 @@ impl Steps {
         self.length_m
     }
 
-    /// The bound of the speed at a place.
-    pub(super) fn cap_mps(&self, s_m: f64) -> f64 {
-        let next = self.steps.partition_point(|step| step.end_m() <= s_m);
-        self.steps.get(next).map_or(0.0, |step| step.cap_mps)
+    /// The fastest speed with which the path can begin.
+    pub(super) fn fastest_begin_mps(&self) -> f64 {
+        let mut square = 0.0_f64;
+        for step in self.steps.iter().rev() {
+            let stops = square + 2.0 * self.braking_mps2 * step.length_m;
+            square = stops.min(step.cap_mps * step.cap_mps);
+            if step.stands_s.is_some() && step.begin_m > 0.0 {
+                square = 0.0;
+            }
+        }
+        square.sqrt()
     }
 
     /// The fastest drive from a state to a stand at a place; none where the vehicle drives faster

@@ -131,7 +131,7 @@ pub struct Stop {
 /// may be one without duration, which holds the end to the last bit. Before
 /// its beginning the vehicle is at the first place, after its end it stands at the last one. Nobody
 /// has checked the numbers of a profile made by [`TimedPath::new`]:
-/// [`judge_in_time`](crate::validation::judge_in_time) does.
+/// `judge_in_time` does.
 ///
 /// ```
 /// use formicar::path::{Direction, Phase, TimedPath};
