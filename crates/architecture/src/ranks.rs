@@ -40,6 +40,7 @@ pub const CLI: &[&str] = &[
     "settings",
     "scene",
     "mode_args",
+    "motion_files",
     "path_file",
     "picture",
     "ants",

@@ -14,6 +14,7 @@ mod files;
 #[cfg(feature = "mapping")]
 mod lidar;
 mod mode_args;
+mod motion_files;
 mod optional;
 mod output;
 mod path_file;

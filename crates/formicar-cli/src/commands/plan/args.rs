@@ -1,5 +1,6 @@
 //! Flags of `plan`.
 
+use super::motion::MotionArgs;
 use crate::mode_args::ModeArgs;
 use crate::scene::SceneArgs;
 use crate::values::{self, Budget};
@@ -98,6 +99,9 @@ pub(crate) struct PlanArgs {
     /// seconds, and none for others.
     #[arg(long, value_name = "STEPS|none", value_parser = values::budget, allow_hyphen_values = true)]
     pub(crate) budget: Option<Budget>,
+
+    #[command(flatten)]
+    pub(crate) motion: MotionArgs,
 
     /// Write the answer (.json) or the poses of the path (.csv); may be repeated.
     #[arg(long, value_name = "F.json|F.csv", value_hint = ValueHint::FilePath, conflicts_with = "stdin")]
