@@ -1,0 +1,256 @@
+//! The timed path that is followed: it always ends within what has been seen.
+
+use super::{Driver, DriverConfig, STANDS_MPS, UnknownGround};
+use crate::error::SetupError;
+use crate::route::NOTHING_M;
+use formicar::CurvePath;
+use formicar::motion::{MotionConfig, MotionError};
+use formicar::path::{Phase, TimedPath};
+use formicar::planner::{DriveError, DriveQuestion, drive_in_time};
+use formicar::scenario::{MovingObstacle, Predictions};
+use formicar::tracking::{
+    Controller, DriveCommand, DriveController, DriveLimits, FollowedState, Follower,
+};
+use formicar::vehicle::BicycleState;
+use std::collections::VecDeque;
+
+/// From a stand, shorter hops are not driven, unless they end the path, meters.
+const LEAST_HOP_M: f64 = 0.05;
+/// A speed plan is asked for again with less distance from what moves, in shares.
+const DISTANCE_SHARES: [f64; 3] = [1.0, 0.5, 0.1];
+/// A speed above the limit of a path by less is rounded down to it: a share and m/s.
+const ROUNDING: f64 = 1.02;
+const ROUNDING_MPS: f64 = 0.02;
+
+/// The timed path, its follower and the controller.
+pub(super) struct Reference {
+    controller: Box<dyn DriveController>,
+    asks_for_clearance: bool,
+    limits: DriveLimits,
+    follower: Option<Follower>,
+    /// Commands with the times at which they take effect.
+    pending: VecDeque<(f64, DriveCommand)>,
+}
+
+impl Reference {
+    pub(super) fn new(config: &DriverConfig, limits: DriveLimits) -> Result<Self, SetupError> {
+        Ok(Self {
+            controller: controller(&config.controller)?,
+            asks_for_clearance: matches!(config.controller, Controller::RegulatedPurePursuit(_)),
+            limits,
+            follower: None,
+            pending: VecDeque::new(),
+        })
+    }
+
+    pub(super) fn asks_for_clearance(&self) -> bool {
+        self.asks_for_clearance && self.follower.is_some()
+    }
+
+    pub(super) fn n_failures(&self) -> usize {
+        self.controller.n_failures()
+    }
+
+    /// Lets the robot stand.
+    pub(super) fn hold(&mut self) {
+        self.follower = None;
+    }
+
+    fn follow(&mut self, timed: TimedPath) {
+        self.follower = Follower::new(timed, self.limits).ok();
+    }
+
+    /// The length driven on the timed path by a time, meters.
+    pub(super) fn due_m(&self, t_s: f64) -> f64 {
+        let timed = self.follower.as_ref().map(Follower::timed);
+        timed.map_or(0.0, |timed| timed.at(t_s).s_m)
+    }
+
+    /// The speed that is due at a time, m/s, at least 0.
+    pub(super) fn due_mps(&self, t_s: f64) -> f64 {
+        let timed = self.follower.as_ref().map(Follower::timed);
+        timed.map_or(0.0, |timed| timed.at(t_s).speed_mps)
+    }
+
+    /// How far the robot is from where it is due, meters.
+    fn error_m(&self, t_s: f64, state: BicycleState) -> f64 {
+        let timed = self.follower.as_ref().map(Follower::timed);
+        timed.map_or(0.0, |timed| {
+            timed
+                .pose_at(t_s)
+                .position()
+                .distance(state.pose.position())
+        })
+    }
+
+    pub(super) fn command(
+        &mut self,
+        t_s: f64,
+        state: BicycleState,
+        clearance_m: f64,
+    ) -> DriveCommand {
+        const SAME_S: f64 = 1e-9;
+        while self
+            .pending
+            .front()
+            .is_some_and(|(at_s, _)| *at_s <= t_s + SAME_S)
+        {
+            self.pending.pop_front();
+        }
+        let pending: Vec<_> = self.pending.iter().map(|(_, command)| *command).collect();
+        let command = match &mut self.follower {
+            Some(follower) => {
+                let seen = FollowedState {
+                    t_s,
+                    state,
+                    pending: &pending,
+                    clearance_m,
+                };
+                follower.command(&seen, self.controller.as_mut())
+            }
+            None => DriveCommand {
+                speed_mps: 0.0,
+                steer_rad: state.steer_rad,
+            },
+        };
+        if self.limits.delay_s > 0.0 {
+            self.pending.push_back((t_s + self.limits.delay_s, command));
+        }
+        command
+    }
+}
+
+fn controller(law: &Controller) -> Result<Box<dyn DriveController>, SetupError> {
+    match law {
+        Controller::RegulatedPurePursuit(law) => Ok(Box::new(*law)),
+        #[cfg(feature = "mpc")]
+        Controller::Mpc(parameters) => Ok(Box::new(formicar::tracking::ModelPredictive::new(
+            *parameters,
+        ))),
+        #[cfg(not(feature = "mpc"))]
+        Controller::Mpc(_) => Err(formicar::tracking::TrackingError::NotCompiledIn.into()),
+        law => Err(SetupError::Contradiction {
+            what: "controller",
+            problem: format!("{} does not drive in time by itself", law.name()),
+            hint: "mpc or regulated-pure-pursuit",
+        }),
+    }
+}
+
+impl Driver {
+    /// Cuts off what has been driven; a robot far from where it is due stops.
+    pub(super) fn advance(&mut self) {
+        let (t_s, state) = (self.senses.t_s(), self.senses.state());
+        if self.reference.error_m(t_s, state) > self.config.max_error_m {
+            self.counts.n_emergency_brakes += 1;
+            self.reference.hold();
+            self.routing.forget();
+            return;
+        }
+        self.routing.advance(self.reference.due_m(t_s));
+    }
+
+    /// Plans the speed along the path as far as it has been seen and is free.
+    pub(super) fn set_times(&mut self) {
+        let t_s = self.senses.t_s();
+        let due_mps = self.reference.due_mps(t_s);
+        let Some(path) = self.routing.path().cloned() else {
+            self.stop(due_mps, None);
+            return;
+        };
+        let length_m = path.length_m();
+        let open_m = match self.config.unknown {
+            UnknownGround::StopBefore => self.lanes.seen_m(&path),
+            UnknownGround::TakeAsFree => self.lanes.open_m(&path),
+        };
+        let is_whole = open_m > length_m - NOTHING_M;
+        let end_m = if is_whole { length_m } else { open_m };
+        let stands = due_mps == 0.0 && self.senses.state().speed_mps.abs() < STANDS_MPS;
+        if stands && end_m < if is_whole { NOTHING_M } else { LEAST_HOP_M } {
+            self.reference.hold();
+            return;
+        }
+        match self.speed_plan(&path.between_m(0.0, end_m), due_mps) {
+            Some(timed) => {
+                self.counts.n_certified += 1;
+                self.reference.follow(delayed(&timed, t_s));
+            }
+            None => self.stop(due_mps, Some(&path)),
+        }
+    }
+
+    /// Brakes along a path as hard as the actuators can.
+    fn stop(&mut self, due_mps: f64, path: Option<&CurvePath>) {
+        let Some(path) = path.filter(|_| due_mps > 0.0) else {
+            self.reference.hold();
+            return;
+        };
+        self.counts.n_emergency_brakes += 1;
+        let braking_mps2 = self.limits.braking_mps2;
+        let braking = Phase {
+            speed_mps: due_mps,
+            acceleration_mps2: -braking_mps2,
+            duration_s: due_mps / braking_mps2,
+            ..Phase::default()
+        };
+        let timed = TimedPath::new(path.clone(), vec![braking]);
+        self.reference.follow(delayed(&timed, self.senses.t_s()));
+    }
+
+    /// A speed plan that the judge certifies; with less distance from what moves where the wished one
+    /// cannot be kept.
+    fn speed_plan(&self, path: &CurvePath, present_mps: f64) -> Option<TimedPath> {
+        let obstacles = self.senses.predicted();
+        let shares = if obstacles.is_empty() {
+            &DISTANCE_SHARES[..1]
+        } else {
+            &DISTANCE_SHARES
+        };
+        shares.iter().find_map(|share| {
+            let config = MotionConfig {
+                limits: self.limits_of_plan().clone(),
+                present_speed_mps: present_mps,
+                distance_m: share * self.config.distance_m,
+                ..MotionConfig::default()
+            };
+            self.certified(path, &obstacles, &config)
+        })
+    }
+
+    fn certified(
+        &self,
+        path: &CurvePath,
+        obstacles: &[MovingObstacle],
+        config: &MotionConfig,
+    ) -> Option<TimedPath> {
+        let predictions = Predictions::new(obstacles.to_vec(), self.config.horizon_s).ok()?;
+        let ask = |config: &MotionConfig| {
+            let question = DriveQuestion {
+                predictions: &predictions,
+                zones: None,
+                config,
+            };
+            drive_in_time(self.known().frame(), &self.vehicle, path, &question)
+        };
+        let plan = match ask(config) {
+            Err(DriveError::Motion(MotionError::TooFast {
+                speed_mps,
+                limit_mps,
+            })) if speed_mps < ROUNDING * limit_mps + ROUNDING_MPS => ask(&MotionConfig {
+                present_speed_mps: limit_mps * (1.0 - 1e-9),
+                ..config.clone()
+            }),
+            plan => plan,
+        };
+        plan.ok().map(|plan| plan.motion.timed)
+    }
+}
+
+/// The same drive, begun at a time.
+fn delayed(timed: &TimedPath, begins_s: f64) -> TimedPath {
+    let phases = timed.phases().iter().map(|phase| Phase {
+        t_s: phase.t_s + begins_s,
+        ..*phase
+    });
+    TimedPath::new(timed.path().clone(), phases.collect())
+}

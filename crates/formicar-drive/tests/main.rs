@@ -1,0 +1,6 @@
+//! Suites over the public interface.
+
+mod agents;
+mod common;
+mod known;
+mod unknown;
