@@ -9,7 +9,12 @@ struct Feature {
     commands: &'static [&'static str],
 }
 
-const FEATURES: [Feature; 3] = [
+const FEATURES: [Feature; 4] = [
+    Feature {
+        name: "drive",
+        is_built: cfg!(feature = "drive"),
+        commands: &["drive"],
+    },
     Feature {
         name: "lab",
         is_built: cfg!(feature = "lab"),

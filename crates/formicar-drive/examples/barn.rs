@@ -7,7 +7,7 @@ use formicar::map::GridFrame;
 use formicar::progress::StdClock;
 use formicar::scenario::{GoalHeading, GoalTolerance, ObstacleShape};
 use formicar::tracking::Actuators;
-use formicar::{Observer, OccupancyGrid, Planner, PlannerConfig, Pose2, Request, Seed, Vehicle};
+use formicar::{OccupancyGrid, Planner, PlannerConfig, Pose2, Request, Seed, Vehicle};
 use formicar_drive::{
     Arrival, DriveRecord, DriveView, Driver, DriverConfig, KnownMap, RunConfig, Simulation,
     SimulationConfig, Solid, World, drive, drive_picture,
@@ -93,8 +93,8 @@ impl Barn {
     }
 }
 
-fn driven(case: &Case, seed: u64) -> Result<DriveRecord, Box<dyn Error>> {
-    let vehicle = Vehicle::f1tenth();
+/// The robot of the evidence: 2 m/s, 1.5 m/s^2, wheels of 200 degrees per second, noisy poses.
+fn configs(seed: u64) -> (SimulationConfig, DriverConfig) {
     let simulation = SimulationConfig {
         seed: Seed(seed),
         position_noise_m: 0.02,
@@ -116,6 +116,12 @@ fn driven(case: &Case, seed: u64) -> Result<DriveRecord, Box<dyn Error>> {
         },
         ..DriverConfig::for_simulation(&simulation)
     };
+    (simulation, driver)
+}
+
+fn driven(case: &Case, seed: u64) -> Result<DriveRecord, Box<dyn Error>> {
+    let vehicle = Vehicle::f1tenth();
+    let (simulation, driver) = configs(seed);
     let run = RunConfig {
         max_time_s: MAX_TIME_S,
         arrival: Arrival::Within {

@@ -19,6 +19,8 @@ const COMMIT_M: f64 = 0.03;
 const COMPANY: f64 = 3.0;
 /// Something that moves within this is company, meters.
 const COMPANY_M: f64 = 2.0;
+/// Where no path was found, another search waits for so long, seconds.
+const RETRY_S: f64 = 0.5;
 /// Length over which paths are compared, meters.
 const COMPARED_M: f64 = 2.0;
 
@@ -80,8 +82,14 @@ impl Driver {
         if self.is_stuck() {
             return self.recover(observer);
         }
+        let age_s = self.senses.t_s() - self.routing.planned_s;
         let Some(route) = &self.routing.route else {
-            return self.plan_from_here(0, observer);
+            let waits = self.counts.n_searches > 0 && age_s < RETRY_S;
+            return if waits {
+                Ok(())
+            } else {
+                self.plan_from_here(0, observer)
+            };
         };
         let length_m = route.path.length_m();
         if length_m < NOTHING_M {
@@ -91,7 +99,6 @@ impl Driver {
             return Ok(());
         }
         let is_blocked = self.lanes.free_m(route.lane, &route.path) < length_m - NOTHING_M;
-        let age_s = self.senses.t_s() - self.routing.planned_s;
         if !is_blocked && age_s < self.config.refresh_s {
             return Ok(());
         }
