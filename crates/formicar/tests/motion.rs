@@ -407,3 +407,138 @@ mod crossings {
         assert!(n_hits > 20, "{n_hits}");
     }
 }
+
+/// Controllers that follow timed paths.
+mod drives {
+    use formicar::motion::fastest;
+    use formicar::path::{CurvePath, Direction, SpeedLimits, TimedPath};
+    use formicar::tracking::{
+        Actuators, Controller, DriveCommand, DriveController, DriveMoment, PurePursuit,
+        RegulatedPurePursuit, Stanley, StartOffset, TrackingConfig, TrackingError, TrackingStatus,
+        track, track_by, track_in_time,
+    };
+    use formicar::{Pose2, Vehicle};
+
+    const STEER_RATE: f64 = 0.6;
+
+    /// Forward, a shunt, and forward again, with curvatures that change and one that jumps.
+    fn timed() -> TimedPath {
+        let mut path = CurvePath::new(Pose2::new(1.0, 2.0, 0.4));
+        path.push(0.0, 3.0, Direction::Forward);
+        path.push_clothoid([0.0, 0.35], 1.2, Direction::Forward);
+        path.push(0.35, 1.5, Direction::Forward);
+        path.push(-0.3, 2.0, Direction::Reverse);
+        path.push_clothoid([-0.3, 0.1], 1.0, Direction::Reverse);
+        path.push(0.2, 2.5, Direction::Forward);
+        let limits = SpeedLimits {
+            max_steer_rate_rad_per_s: Some(STEER_RATE),
+            ..SpeedLimits::default()
+        };
+        fastest(&path, &Vehicle::lei2020(), &limits, 0.1)
+    }
+
+    fn config(controller: Controller, delay_s: f64) -> TrackingConfig {
+        TrackingConfig {
+            controller,
+            max_steer_rate_rad_per_s: Some(1.05 * STEER_RATE),
+            actuators: Actuators {
+                delay_s,
+                ..Actuators::default()
+            },
+            start_offset: StartOffset {
+                lateral_m: 0.05,
+                ..StartOffset::default()
+            },
+            ..TrackingConfig::default()
+        }
+    }
+
+    fn laws() -> Vec<(Controller, f64)> {
+        vec![
+            (Controller::PurePursuit(PurePursuit::default()), 0.12),
+            (Controller::Stanley(Stanley::default()), 0.2),
+            (
+                Controller::RegulatedPurePursuit(RegulatedPurePursuit::default()),
+                0.25,
+            ),
+            #[cfg(feature = "mpc")]
+            (
+                Controller::Mpc(formicar::tracking::MpcParameters::default()),
+                0.06,
+            ),
+        ]
+    }
+
+    #[test]
+    fn every_controller_arrives_in_both_gears_at_about_its_time() {
+        let (timed, vehicle) = (timed(), Vehicle::lei2020());
+        for (law, most_m) in laws() {
+            for delay_s in [0.0, 0.1] {
+                let config = config(law, delay_s);
+                let drive = track_in_time(&timed, None, &vehicle, &config).unwrap();
+                let (name, summary) = (law.name(), &drive.summary);
+                println!("{name} {delay_s}: {summary:?}");
+                assert_eq!(drive.status, TrackingStatus::Arrived, "{name} {delay_s}");
+                assert_eq!(summary.n_gear_changes, 2, "{name}");
+                assert!(
+                    summary.max_cross_track_error_m < most_m,
+                    "{name} {summary:?}"
+                );
+                assert!(summary.goal_error_m < 0.2, "{name} {summary:?}");
+                assert!(
+                    (summary.duration_s - timed.duration_s()).abs() < 8.0,
+                    "{name}"
+                );
+                assert_eq!(summary.n_controller_failures, 0, "{name}");
+                let again = track_in_time(&timed, None, &vehicle, &config).unwrap();
+                assert_eq!(drive, again, "{name}");
+                // Wheels and speed keep the actuators' limits.
+                for pair in drive.trace.windows(2) {
+                    let dt = pair[1].t_s - pair[0].t_s;
+                    let turn = (pair[1].steer_rad - pair[0].steer_rad).abs();
+                    assert!(turn <= 1.05 * STEER_RATE * dt + 1e-9, "{name}");
+                    let [a, b] = [pair[0].speed_mps.unwrap(), pair[1].speed_mps.unwrap()];
+                    assert!((b - a).abs() <= 2.0 * dt + 1e-9, "{name}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_controller_of_ones_own_drives() {
+        struct Idle;
+        impl DriveController for Idle {
+            fn name(&self) -> &'static str {
+                "idle"
+            }
+            fn command(&mut self, at: &DriveMoment) -> DriveCommand {
+                at.drive(0.0, 0.0)
+            }
+        }
+        let config = config(Controller::OpenLoop, 0.0);
+        let drive = track_by(&timed(), None, &Vehicle::lei2020(), &config, &mut Idle).unwrap();
+        assert_eq!(drive.status, TrackingStatus::GaveUp);
+        assert_eq!(drive.summary.driven_m, 0.0);
+    }
+
+    #[test]
+    fn laws_with_a_speed_of_their_own_need_a_timed_path() {
+        let law = Controller::RegulatedPurePursuit(RegulatedPurePursuit::default());
+        let refused = track(timed().path(), &Vehicle::lei2020(), &config(law, 0.0));
+        assert!(matches!(refused, Err(TrackingError::NeedsTime { .. })));
+        let bad = TrackingConfig {
+            actuators: Actuators {
+                delay_s: -1.0,
+                ..Actuators::default()
+            },
+            ..config(law, 0.0)
+        };
+        let refused = track_in_time(&timed(), None, &Vehicle::lei2020(), &bad);
+        assert!(
+            refused
+                .unwrap_err()
+                .to_string()
+                .contains("actuators.delay_s")
+        );
+    }
+}
