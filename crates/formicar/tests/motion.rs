@@ -240,9 +240,15 @@ mod crossings {
             max_braking_mps2: [None, Some(stream.range(0.5, 3.0))][stream.below(2)],
             ..limits(seed)
         };
+        let max_jerk_mps3 = (seed % 6 == 5).then(|| stream.range(0.5, 3.0));
+        let moving = stream.range(0.0, 0.5) * limits.max_speed_mps;
         let config = MotionConfig {
             distance_m: stream.range(0.0, 0.3),
-            limits,
+            limits: SpeedLimits {
+                max_jerk_mps3,
+                ..limits
+            },
+            present_speed_mps: if seed % 5 == 4 { moving } else { 0.0 },
             ..MotionConfig::default()
         };
         Crossing {
@@ -285,14 +291,15 @@ mod crossings {
     #[test]
     fn plans_keep_their_distance_and_the_judge_agrees_with_a_simulation() {
         let (mut n_fastest, mut n_lattice, mut n_waits, mut n_refused) = (0, 0, 0, 0);
-        let mut times = Vec::new();
         for seed in 0..quick_or_full(300, 10_000) {
             let crossing = crossing(seed);
-            let begun = std::time::Instant::now();
-            let planned = crossing.plan();
-            times.push(begun.elapsed().as_secs_f64() * 1e3);
-            let plan = match planned {
+            let plan = match crossing.plan() {
                 Ok(plan) => plan,
+                Err(MotionError::TooFast { .. } | MotionError::TooSlow { .. }) => continue,
+                Err(MotionError::Unavoidable { .. }) if crossing.config.present_speed_mps > 0.0 => {
+                    n_refused += 1;
+                    continue;
+                }
                 Err(MotionError::Unavoidable { t_s, .. }) => {
                     // To stand is always allowed: then something must come to where it stands.
                     // Regions are closed up to a step and a piece too far.
@@ -333,7 +340,9 @@ mod crossings {
         for seed in 0..quick_or_full(150, 2_000) {
             let crossing = crossing(seed);
             let Ok(plan) = crossing.plan() else { continue };
-            if plan.source == ProfileSource::Fastest {
+            let is_simple = crossing.config.present_speed_mps == 0.0
+                && crossing.config.limits.max_jerk_mps3.is_none();
+            if plan.source == ProfileSource::Fastest || !is_simple {
                 continue;
             }
             let limits = &crossing.config.limits;
@@ -372,7 +381,9 @@ mod crossings {
     fn the_judge_refuses_drives_that_break_a_rule() {
         let mut n_hits = 0;
         for seed in 0..quick_or_full(100, 3_000) {
-            let crossing = crossing(seed);
+            let mut crossing = crossing(seed);
+            crossing.config.present_speed_mps = 0.0;
+            crossing.config.limits.max_jerk_mps3 = None;
             let limits = &crossing.config.limits;
             // Driven as if nothing moved.
             let free = formicar::motion::fastest(&crossing.path, &crossing.vehicle, limits, 0.1);

@@ -376,7 +376,9 @@ impl Run<'_> {
             return None;
         }
         let is_inside = !forbidden.is_open(usize::MAX, [from.s_m, from.s_m]);
-        if is_inside {
+        let ahead_m = (to_m - from.s_m).max(0.0) + forbidden::SAME_PLACE_M;
+        let braking_m = 0.5 * from.speed_mps.powi(2) / self.config.limits.braking_mps2();
+        if is_inside || braking_m > ahead_m {
             return None;
         }
         self.steps.fastest(from, to_m.max(from.s_m))
