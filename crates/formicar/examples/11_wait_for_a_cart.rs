@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let cart = ObstacleShape::Polygon(vec![[-0.5, -0.3], [0.5, -0.3], [0.5, 0.3], [-0.5, 0.3]]);
     let obstacles = vec![
         moving(walker, [4.5, 8.6, 0.0], [0.6, 0.0]),
-        moving(cart, [14.0, 16.0, 3.14], [-0.3, 0.0]),
+        moving(cart, [14.0, 16.0, 0.0], [-0.3, 0.0]),
     ];
     let predictions = Predictions::new(obstacles, 40.0)?;
     let config = MotionConfig::default();

@@ -331,8 +331,8 @@ impl<'a> Reached<'a> {
         let slab = here.layer.checked_sub(1)?;
         let stretch = &self.lattice.stretches[here.stretch];
         let closed = self.closed_units(slab, stretch);
-        let into = stretch.moves.iter().filter(|step| step.to == here.mode);
-        into.filter_map(|step| {
+        let mut into = stretch.moves.iter().filter(|step| step.to == here.mode);
+        into.find_map(|step| {
             let before = State {
                 layer: slab,
                 stretch: here.stretch,
@@ -350,6 +350,5 @@ impl<'a> Reached<'a> {
             };
             (is_free && self.contains(before)).then_some(before)
         })
-        .next()
     }
 }

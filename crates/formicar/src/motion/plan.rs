@@ -329,36 +329,47 @@ impl Run<'_> {
         forbidden: &Forbidden,
         reached: &Reached,
     ) -> Option<(State, TimedState)> {
+        let modes = lattice.stretches.iter().enumerate();
+        let modes = modes.flat_map(|(i, stretch)| (0..stretch.modes.len()).map(move |m| (i, m)));
+        let foremost = modes.filter_map(|mode| self.foremost(lattice, forbidden, reached, mode));
+        foremost.reduce(|best, other| {
+            let (old, new) = (best.1, other.1);
+            let same = (new.s_m - old.s_m).abs() <= forbidden::SAME_PLACE_M;
+            let is_better = if same {
+                new.t_s < old.t_s
+            } else {
+                new.s_m > old.s_m
+            };
+            if is_better { other } else { best }
+        })
+    }
+
+    /// The foremost state of a mode in the last layer from which a drive can end, and its end.
+    fn foremost(
+        &self,
+        lattice: &Lattice,
+        forbidden: &Forbidden,
+        reached: &Reached,
+        (stretch, mode): (usize, usize),
+    ) -> Option<(State, TimedState)> {
         let layer = reached.last();
-        let mut best: Option<(State, TimedState)> = None;
-        for (stretch, lattice_of) in lattice.stretches.iter().enumerate() {
-            for mode in 0..lattice_of.modes.len() {
-                let mut at_most = Some(lattice_of.n_units);
-                let places = reached.places(layer, stretch, mode);
-                let found = std::iter::from_fn(|| {
-                    let unit = bits::highest(places, at_most?)?;
-                    at_most = unit.checked_sub(1);
-                    Some(State {
-                        layer,
-                        stretch,
-                        mode,
-                        unit,
-                    })
-                })
-                .find_map(|state| {
-                    let end = self.tail(lattice, forbidden, state)?.last()?.end();
-                    Some((state, end))
-                });
-                let is_better = |(_, end): &(State, TimedState)| {
-                    best.is_none_or(|(_, old)| {
-                        let same = (end.s_m - old.s_m).abs() <= forbidden::SAME_PLACE_M;
-                        end.s_m > old.s_m && !same || same && end.t_s < old.t_s
-                    })
-                };
-                best = found.filter(is_better).or(best);
-            }
-        }
-        best
+        let places = reached.places(layer, stretch, mode);
+        let mut at_most = Some(lattice.stretches[stretch].n_units);
+        let states = std::iter::from_fn(|| {
+            let unit = bits::highest(places, at_most?)?;
+            at_most = unit.checked_sub(1);
+            Some(State {
+                layer,
+                stretch,
+                mode,
+                unit,
+            })
+        });
+        let mut ends = states.filter_map(|state| {
+            let end = self.tail(lattice, forbidden, state)?.last()?.end();
+            Some((state, end))
+        });
+        ends.next()
     }
 
     /// The fastest drive from a state as far as the way stays open.
@@ -401,7 +412,7 @@ impl Run<'_> {
         let most = most.min(reached.last().max(2 * MAX_WORDS / n_words));
         let closed_m = forbidden.closed_for_good_m(0.0);
         while reached.last() < most && !reached.contains(lattice.end(reached.last())) {
-            if closed_m.is_some_and(|_| self.has_stopped(lattice, forbidden, reached)) {
+            if closed_m.is_some_and(|_| has_stopped(lattice, forbidden, reached)) {
                 break;
             }
             reached.advance();
@@ -420,18 +431,6 @@ impl Run<'_> {
             ..Phase::default()
         });
         Some(phases)
-    }
-
-    /// True if the vehicle can stand as near to what stays closed as the lattice allows.
-    fn has_stopped(&self, lattice: &Lattice, forbidden: &Forbidden, reached: &Reached) -> bool {
-        let state = foremost_rest(lattice, reached, reached.last());
-        state.is_some_and(|state| {
-            let s_m = lattice.timed(state).s_m;
-            let stretch = &lattice.stretches[state.stretch];
-            let closed_m = forbidden.closed_for_good_m(s_m);
-            // Rest is on every sixth unit.
-            closed_m.is_some_and(|closed_m| closed_m - s_m < 6.0 * stretch.unit_m)
-        })
     }
 
     fn found(&self, timed: TimedPath, source: ProfileSource, forbidden: Forbidden) -> MotionPlan {
@@ -493,5 +492,17 @@ fn foremost_rest(lattice: &Lattice, reached: &Reached, layer: usize) -> Option<S
             mode: REST,
             unit,
         })
+    })
+}
+
+/// True if the vehicle can stand as near to what stays closed as the lattice allows.
+fn has_stopped(lattice: &Lattice, forbidden: &Forbidden, reached: &Reached) -> bool {
+    let state = foremost_rest(lattice, reached, reached.last());
+    state.is_some_and(|state| {
+        let s_m = lattice.timed(state).s_m;
+        let stretch = &lattice.stretches[state.stretch];
+        let closed_m = forbidden.closed_for_good_m(s_m);
+        // Rest is on every sixth unit.
+        closed_m.is_some_and(|closed_m| closed_m - s_m < 6.0 * stretch.unit_m)
     })
 }
