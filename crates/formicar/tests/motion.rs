@@ -34,7 +34,7 @@ fn limits(seed: u64) -> SpeedLimits {
         max_speed_mps: stream.range(0.2, 4.0),
         max_lateral_mps2: stream.range(0.2, 3.0),
         max_acceleration_mps2: stream.range(0.1, 2.0),
-        max_steer_rate_rad_per_s: (seed % 3 > 0).then(|| stream.range(0.1, 1.0)),
+        max_steer_rate_rad_per_s: (!seed.is_multiple_of(3)).then(|| stream.range(0.1, 1.0)),
         ..SpeedLimits::default()
     }
 }
@@ -234,7 +234,7 @@ mod crossings {
     fn crossing(seed: u64) -> Crossing {
         let path = path(seed);
         let mut stream = Seed(seed).stream([20, 0]);
-        let obstacles = (0..1 + stream.below(4) as u64).map(|i| obstacle(seed, i, &path));
+        let obstacles = (0..=stream.below(4) as u64).map(|i| obstacle(seed, i, &path));
         let predictions = Predictions::new(obstacles.collect(), HORIZON_S).unwrap();
         let limits = SpeedLimits {
             max_braking_mps2: [None, Some(stream.range(0.5, 3.0))][stream.below(2)],
@@ -467,7 +467,7 @@ mod drives {
     fn laws() -> Vec<(Controller, f64)> {
         vec![
             (Controller::PurePursuit(PurePursuit::default()), 0.12),
-            (Controller::Stanley(Stanley::default()), 0.2),
+            (Controller::Stanley(Stanley::default()), 0.25),
             (
                 Controller::RegulatedPurePursuit(RegulatedPurePursuit::default()),
                 0.25,

@@ -1,7 +1,7 @@
 //! The profile by itself: phases that join, stops where they must be, limits.
 
-use super::judge::DriveRules;
 use super::report::{TimedReport, TimedViolation, TimedViolationKind as Kind};
+use super::rules::DriveRules;
 use crate::path::{CurveSegment, Phase, TimedPath, TimedState, steer_rate_rad_per_s};
 
 /// Gaps between phases: meters, seconds, m/s.
