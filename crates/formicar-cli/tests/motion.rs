@@ -115,20 +115,41 @@ fn a_speed_alone_is_planned_too() {
 
 #[test]
 fn what_stays_in_the_way_is_waited_for() {
-    let room = room(&walker([6.0, 6.0, 0.0], [0.0, 0.0]));
-    let run = room.plan(&[&CAR[..], &["--json"]].concat());
+    let mut moving = walker([6.0, 6.5, 0.0], [0.0, 0.0]);
+    // It fills the door.
+    moving["obstacles"][0]["shape"]["disc"]["radius_m"] = json!(1.2);
+    let run = room(&moving).plan(&[&CAR[..], &["--json"]].concat());
     assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
     let motion = &run.json()["motion"];
-    assert_eq!(
-        (&motion["status"], &motion["certificate"]["arrives"]),
-        (&json!("waits"), &json!(false))
-    );
+    let (status, arrives) = (&motion["status"], &motion["certificate"]["arrives"]);
+    assert_eq!((status, arrives), (&json!("waits"), &json!(false)));
+}
+
+#[test]
+fn a_way_around_is_taken_where_waiting_takes_longer() {
+    // It stands on the path, near one side of the door.
+    let room = room(&walker([6.1, 5.6, 0.0], [0.0, 0.0]));
+    let run = room.plan(&[&CAR[..], &["--out", "plan.json"]].concat());
+    assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
+    run.assert_says("the path leads around moving obstacles");
+    let answer: Value = serde_json::from_str(&room.read("plan.json")).unwrap();
+    assert_eq!(answer["motion"]["status"], "arrives");
+    let check = [
+        "check",
+        "plan.json",
+        "--map",
+        "room.yaml",
+        "--vehicle",
+        "car.json",
+    ];
+    let checked = room.run(&check);
+    assert_eq!(checked.code, 0, "{}{}", checked.stdout, checked.stderr);
 }
 
 #[test]
 fn an_obstacle_that_leaves_no_way_out_is_named() {
-    let room = room(&walker([8.0, 2.0, 0.0], [-1.0, 0.0]));
-    // It comes through the wall, as predictions may, and over the car.
+    let room = room(&walker([4.5, 2.0, 0.0], [-1.5, 0.0]));
+    // The car has no time to back off, and its path leads forward.
     let run = room.plan(&CAR);
     assert_eq!(run.code, 3, "{}{}", run.stdout, run.stderr);
     run.assert_says("not driven obstacle walker comes within 0.1 m");
@@ -195,7 +216,7 @@ fn speed_zones_bound_the_profile() {
     // Half the speed everywhere.
     let row = "50 ".repeat(60);
     let rows = vec![row.trim_end(); 40].join("\n");
-    let pgm = format!("P2\n60 40\n100\n{rows}\n");
+    let pgm = format!("P2\n60 40\n255\n{rows}\n");
     room.write("zones.pgm", pgm);
     room.write(
         "zones.yaml",

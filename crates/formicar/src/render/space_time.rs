@@ -1,6 +1,7 @@
 //! Pictures of a drive in time: arc length over time, and vehicles and obstacles as ghosts.
 
 use super::chart::{Axis, Chart, Limit, Ribbon, Series};
+use super::legend::Swatch;
 use super::{Picture, Scene, palette};
 use crate::geometry::Point2;
 use crate::motion::{MotionPlan, Region};
@@ -111,6 +112,12 @@ impl Scene {
         predictions: &Predictions,
         vehicle: &Vehicle,
     ) -> &mut Self {
+        if !predictions.obstacles().is_empty() {
+            self.legend
+                .add("moving obstacle", Swatch::Area(palette::LIMIT));
+        }
+        self.legend
+            .add("vehicle at a time", Swatch::Area(palette::FORWARD));
         let end_s = shown_s(timed, predictions);
         let step_s = nice_step_s(end_s / MAX_GHOSTS);
         let n_ghosts = (end_s / step_s).floor() as usize;
