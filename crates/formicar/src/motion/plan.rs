@@ -322,7 +322,11 @@ impl Run<'_> {
     }
 
     /// The state of the last layer from which a drive ends best: at the end of the path, then as far
-    /// as possible, then early. Of states of one speed the foremost is never later.
+    /// as possible, then early.
+    ///
+    /// Of states of one speed v the foremost is never later: from its place on it is the slower one
+    /// at every place, if at all, until both have the same speed w somewhere; it has got there by
+    /// accelerating all the time, in (w - v) / a, and nothing gets from v to w sooner.
     fn best_to_go_on(
         &self,
         lattice: &Lattice,
