@@ -178,7 +178,7 @@ struct Lead {
 
 impl Run<'_> {
     fn plan(&self, unhindered: TimedPath) -> Result<MotionPlan, MotionError> {
-        let time_step_s = self.time_step_s()?;
+        let (time_step_s, begin) = self.fitted()?;
         let distance_m = self.config.distance_m;
         let forbidden = Forbidden::new(
             &self.swept,
@@ -190,7 +190,10 @@ impl Run<'_> {
         if !is_smooth && forbidden.is_free(&unhindered) {
             return Ok(self.found(unhindered, ProfileSource::Fastest, forbidden));
         }
-        let lead = self.lead(time_step_s);
+        let lead = Lead {
+            begin,
+            ..self.lead(time_step_s)
+        };
         let lattice = Lattice::new(
             &self.steps,
             &self.config.limits,
@@ -232,8 +235,8 @@ impl Run<'_> {
         Ok(self.found(timed, ProfileSource::Lattice, forbidden))
     }
 
-    /// The time step at which all layers fit into memory.
-    fn time_step_s(&self) -> Result<f64, MotionError> {
+    /// The time step at which all layers fit into memory, and the beginning on its lattice.
+    fn fitted(&self) -> Result<(f64, Begin), MotionError> {
         let (limits, speed_mps) = (&self.config.limits, self.config.present_speed_mps);
         let crawl_mps = CRAWL * limits.max_speed_mps;
         if limits.max_jerk_mps3.is_some() && speed_mps > 0.0 && speed_mps < crawl_mps {
@@ -245,12 +248,12 @@ impl Run<'_> {
         let mut wished_s = self.config.time_step_s;
         loop {
             let begin = self.lead(wished_s).begin;
-            let time_step_s = Lattice::time_step_s(&self.steps, limits, begin, wished_s);
+            let (time_step_s, begin) = Lattice::fitted(&self.steps, limits, begin, wished_s);
             let lattice = Lattice::new(&self.steps, limits, time_step_s, (begin, 0));
             let n_layers = self.problem.predictions.horizon_s() / time_step_s + 2.0;
             let n_words = lattice.map_or(0, |lattice| lattice.n_words());
             if n_words as f64 * n_layers <= MAX_WORDS as f64 {
-                return Ok(time_step_s);
+                return Ok((time_step_s, begin));
             }
             wished_s *= COARSER;
         }
@@ -265,8 +268,8 @@ impl Run<'_> {
             return Lead {
                 phases: Vec::new(),
                 begin: Begin {
-                    s_m: 0.0,
                     speed_mps,
+                    ..Begin::at_rest(0.0)
                 },
                 layer: 0,
             };
@@ -286,10 +289,7 @@ impl Run<'_> {
         };
         Lead {
             phases: vec![braking, standing],
-            begin: Begin {
-                s_m: stop.s_m,
-                speed_mps: 0.0,
-            },
+            begin: Begin::at_rest(stop.s_m),
             layer: layer as usize,
         }
     }
