@@ -82,14 +82,20 @@ fn write_motion(motion: &MotionRecord, out: &mut impl Write) -> io::Result<()> {
         let reason = motion.reason.as_deref().unwrap_or_default();
         return writeln!(out, "not driven {reason}");
     };
+    // With a bounded jerk the drive takes longer for that alone.
+    let is_comparable = motion.config.limits.max_jerk_mps3.is_none();
     let lost_s = profile.duration_s - profile.unhindered_s;
     let ends = match motion.status {
         Some(MotionStatus::Waits) => {
             let s_m = profile.phases.last().map_or(0.0, |phase| phase.s_m);
             format!("waits at {s_m:.2} m, before what stays in the way")
         }
-        _ if lost_s > 0.05 => format!("arrives {lost_s:.1} s later than with nothing in the way"),
-        _ => "arrives without waiting".to_owned(),
+        _ if motion.moving.obstacles.is_empty() => "arrives".to_owned(),
+        _ if is_comparable && lost_s > 0.05 => {
+            format!("arrives {lost_s:.1} s later than with nothing in the way")
+        }
+        _ if profile.stops.is_empty() => "arrives without waiting".to_owned(),
+        _ => "arrives".to_owned(),
     };
     writeln!(
         out,

@@ -65,7 +65,9 @@ mod tests {
 
     fn set(places: &[usize]) -> Bits {
         let mut bits = vec![0; words(300)];
-        places.iter().for_each(|&at| insert(&mut bits, at));
+        for &at in places {
+            insert(&mut bits, at);
+        }
         bits
     }
 

@@ -8,7 +8,7 @@
 use super::bits::{self, Bits};
 use super::forbidden::Forbidden;
 use super::steps::Steps;
-use super::stretch::{Begin, Stretch, between_stops, fitting_time_step_s};
+use super::stretch::{Begin, Stretch, between_stops, fitted};
 use crate::path::{Phase, SpeedLimits, TimedState};
 
 /// A state of the lattice.
@@ -55,10 +55,7 @@ impl Lattice {
         let mut stretches = Vec::new();
         for of_stretch in between_stops(steps, begin.s_m) {
             stretches.push(Stretch::new(&of_stretch, begin, limits, time_step_s));
-            begin = Begin {
-                s_m: stretches[stretches.len() - 1].end_m,
-                speed_mps: 0.0,
-            };
+            begin = Begin::at_rest(stretches[stretches.len() - 1].end_m);
         }
         let first = stretches.first_mut()?;
         first.stands_s = 0.0;
@@ -91,16 +88,16 @@ impl Lattice {
             .sum()
     }
 
-    /// The time step that suits a beginning, at most the one wished for.
-    pub(super) fn time_step_s(
+    /// The time step that suits a beginning, at most the one wished for, and the beginning on it.
+    pub(super) fn fitted(
         steps: &Steps,
         limits: &SpeedLimits,
         begin: Begin,
         wished_s: f64,
-    ) -> f64 {
+    ) -> (f64, Begin) {
         let stretches = between_stops(steps, begin.s_m);
         let first = stretches.first().map_or(&[][..], Vec::as_slice);
-        fitting_time_step_s(first, begin, limits, wished_s)
+        fitted(first, begin, limits, wished_s)
     }
 
     pub(super) fn timed(&self, state: State) -> TimedState {
@@ -331,8 +328,8 @@ impl<'a> Reached<'a> {
         let slab = here.layer.checked_sub(1)?;
         let stretch = &self.lattice.stretches[here.stretch];
         let closed = self.closed_units(slab, stretch);
-        let into = stretch.moves.iter().filter(|step| step.to == here.mode);
-        into.filter_map(|step| {
+        let mut into = stretch.moves.iter().filter(|step| step.to == here.mode);
+        into.find_map(|step| {
             let before = State {
                 layer: slab,
                 stretch: here.stretch,
@@ -350,6 +347,5 @@ impl<'a> Reached<'a> {
             };
             (is_free && self.contains(before)).then_some(before)
         })
-        .next()
     }
 }

@@ -178,7 +178,7 @@ struct Lead {
 
 impl Run<'_> {
     fn plan(&self, unhindered: TimedPath) -> Result<MotionPlan, MotionError> {
-        let time_step_s = self.time_step_s()?;
+        let (time_step_s, begin) = self.fitted()?;
         let distance_m = self.config.distance_m;
         let forbidden = Forbidden::new(
             &self.swept,
@@ -190,7 +190,10 @@ impl Run<'_> {
         if !is_smooth && forbidden.is_free(&unhindered) {
             return Ok(self.found(unhindered, ProfileSource::Fastest, forbidden));
         }
-        let lead = self.lead(time_step_s);
+        let lead = Lead {
+            begin,
+            ..self.lead(time_step_s)
+        };
         let lattice = Lattice::new(
             &self.steps,
             &self.config.limits,
@@ -232,8 +235,8 @@ impl Run<'_> {
         Ok(self.found(timed, ProfileSource::Lattice, forbidden))
     }
 
-    /// The time step at which all layers fit into memory.
-    fn time_step_s(&self) -> Result<f64, MotionError> {
+    /// The time step at which all layers fit into memory, and the beginning on its lattice.
+    fn fitted(&self) -> Result<(f64, Begin), MotionError> {
         let (limits, speed_mps) = (&self.config.limits, self.config.present_speed_mps);
         let crawl_mps = CRAWL * limits.max_speed_mps;
         if limits.max_jerk_mps3.is_some() && speed_mps > 0.0 && speed_mps < crawl_mps {
@@ -245,12 +248,12 @@ impl Run<'_> {
         let mut wished_s = self.config.time_step_s;
         loop {
             let begin = self.lead(wished_s).begin;
-            let time_step_s = Lattice::time_step_s(&self.steps, limits, begin, wished_s);
+            let (time_step_s, begin) = Lattice::fitted(&self.steps, limits, begin, wished_s);
             let lattice = Lattice::new(&self.steps, limits, time_step_s, (begin, 0));
             let n_layers = self.problem.predictions.horizon_s() / time_step_s + 2.0;
             let n_words = lattice.map_or(0, |lattice| lattice.n_words());
             if n_words as f64 * n_layers <= MAX_WORDS as f64 {
-                return Ok(time_step_s);
+                return Ok((time_step_s, begin));
             }
             wished_s *= COARSER;
         }
@@ -265,8 +268,8 @@ impl Run<'_> {
             return Lead {
                 phases: Vec::new(),
                 begin: Begin {
-                    s_m: 0.0,
                     speed_mps,
+                    ..Begin::at_rest(0.0)
                 },
                 layer: 0,
             };
@@ -286,10 +289,7 @@ impl Run<'_> {
         };
         Lead {
             phases: vec![braking, standing],
-            begin: Begin {
-                s_m: stop.s_m,
-                speed_mps: 0.0,
-            },
+            begin: Begin::at_rest(stop.s_m),
             layer: layer as usize,
         }
     }
@@ -322,43 +322,58 @@ impl Run<'_> {
     }
 
     /// The state of the last layer from which a drive ends best: at the end of the path, then as far
-    /// as possible, then early. Of states of one speed the foremost is never later.
+    /// as possible, then early.
+    ///
+    /// Of states of one speed v the foremost is never later: from its place on it is the slower one
+    /// at every place, if at all, until both have the same speed w somewhere; it has got there by
+    /// accelerating all the time, in (w - v) / a, and nothing gets from v to w sooner.
     fn best_to_go_on(
         &self,
         lattice: &Lattice,
         forbidden: &Forbidden,
         reached: &Reached,
     ) -> Option<(State, TimedState)> {
+        let modes = lattice.stretches.iter().enumerate();
+        let modes = modes.flat_map(|(i, stretch)| (0..stretch.modes.len()).map(move |m| (i, m)));
+        let foremost = modes.filter_map(|mode| self.foremost(lattice, forbidden, reached, mode));
+        foremost.reduce(|best, other| {
+            let (old, new) = (best.1, other.1);
+            let same = (new.s_m - old.s_m).abs() <= forbidden::SAME_PLACE_M;
+            let is_better = if same {
+                new.t_s < old.t_s
+            } else {
+                new.s_m > old.s_m
+            };
+            if is_better { other } else { best }
+        })
+    }
+
+    /// The foremost state of a mode in the last layer from which a drive can end, and its end.
+    fn foremost(
+        &self,
+        lattice: &Lattice,
+        forbidden: &Forbidden,
+        reached: &Reached,
+        (stretch, mode): (usize, usize),
+    ) -> Option<(State, TimedState)> {
         let layer = reached.last();
-        let mut best: Option<(State, TimedState)> = None;
-        for (stretch, lattice_of) in lattice.stretches.iter().enumerate() {
-            for mode in 0..lattice_of.modes.len() {
-                let mut at_most = Some(lattice_of.n_units);
-                let places = reached.places(layer, stretch, mode);
-                let found = std::iter::from_fn(|| {
-                    let unit = bits::highest(places, at_most?)?;
-                    at_most = unit.checked_sub(1);
-                    Some(State {
-                        layer,
-                        stretch,
-                        mode,
-                        unit,
-                    })
-                })
-                .find_map(|state| {
-                    let end = self.tail(lattice, forbidden, state)?.last()?.end();
-                    Some((state, end))
-                });
-                let is_better = |(_, end): &(State, TimedState)| {
-                    best.is_none_or(|(_, old)| {
-                        let same = (end.s_m - old.s_m).abs() <= forbidden::SAME_PLACE_M;
-                        end.s_m > old.s_m && !same || same && end.t_s < old.t_s
-                    })
-                };
-                best = found.filter(is_better).or(best);
-            }
-        }
-        best
+        let places = reached.places(layer, stretch, mode);
+        let mut at_most = Some(lattice.stretches[stretch].n_units);
+        let states = std::iter::from_fn(|| {
+            let unit = bits::highest(places, at_most?)?;
+            at_most = unit.checked_sub(1);
+            Some(State {
+                layer,
+                stretch,
+                mode,
+                unit,
+            })
+        });
+        let mut ends = states.filter_map(|state| {
+            let end = self.tail(lattice, forbidden, state)?.last()?.end();
+            Some((state, end))
+        });
+        ends.next()
     }
 
     /// The fastest drive from a state as far as the way stays open.
@@ -376,7 +391,9 @@ impl Run<'_> {
             return None;
         }
         let is_inside = !forbidden.is_open(usize::MAX, [from.s_m, from.s_m]);
-        if is_inside {
+        let ahead_m = (to_m - from.s_m).max(0.0) + forbidden::SAME_PLACE_M;
+        let braking_m = 0.5 * from.speed_mps.powi(2) / self.config.limits.braking_mps2();
+        if is_inside || braking_m > ahead_m {
             return None;
         }
         self.steps.fastest(from, to_m.max(from.s_m))
@@ -399,7 +416,7 @@ impl Run<'_> {
         let most = most.min(reached.last().max(2 * MAX_WORDS / n_words));
         let closed_m = forbidden.closed_for_good_m(0.0);
         while reached.last() < most && !reached.contains(lattice.end(reached.last())) {
-            if closed_m.is_some_and(|_| self.has_stopped(lattice, forbidden, reached)) {
+            if closed_m.is_some_and(|_| has_stopped(lattice, forbidden, reached)) {
                 break;
             }
             reached.advance();
@@ -418,18 +435,6 @@ impl Run<'_> {
             ..Phase::default()
         });
         Some(phases)
-    }
-
-    /// True if the vehicle can stand as near to what stays closed as the lattice allows.
-    fn has_stopped(&self, lattice: &Lattice, forbidden: &Forbidden, reached: &Reached) -> bool {
-        let state = foremost_rest(lattice, reached, reached.last());
-        state.is_some_and(|state| {
-            let s_m = lattice.timed(state).s_m;
-            let stretch = &lattice.stretches[state.stretch];
-            let closed_m = forbidden.closed_for_good_m(s_m);
-            // Rest is on every sixth unit.
-            closed_m.is_some_and(|closed_m| closed_m - s_m < 6.0 * stretch.unit_m)
-        })
     }
 
     fn found(&self, timed: TimedPath, source: ProfileSource, forbidden: Forbidden) -> MotionPlan {
@@ -491,5 +496,17 @@ fn foremost_rest(lattice: &Lattice, reached: &Reached, layer: usize) -> Option<S
             mode: REST,
             unit,
         })
+    })
+}
+
+/// True if the vehicle can stand as near to what stays closed as the lattice allows.
+fn has_stopped(lattice: &Lattice, forbidden: &Forbidden, reached: &Reached) -> bool {
+    let state = foremost_rest(lattice, reached, reached.last());
+    state.is_some_and(|state| {
+        let s_m = lattice.timed(state).s_m;
+        let stretch = &lattice.stretches[state.stretch];
+        let closed_m = forbidden.closed_for_good_m(s_m);
+        // Rest is on every sixth unit.
+        closed_m.is_some_and(|closed_m| closed_m - s_m < 6.0 * stretch.unit_m)
     })
 }

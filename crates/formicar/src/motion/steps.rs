@@ -25,7 +25,7 @@ impl Step {
 /// A path in steps.
 #[derive(Clone, Debug)]
 pub(super) struct Steps {
-    steps: Vec<Step>,
+    all: Vec<Step>,
     length_m: f64,
     acceleration_mps2: f64,
     braking_mps2: f64,
@@ -75,7 +75,7 @@ impl Steps {
             before = Some(segment);
         }
         Self {
-            steps,
+            all: steps,
             length_m: joint_m,
             acceleration_mps2: limits.max_acceleration_mps2,
             braking_mps2: limits.braking_mps2(),
@@ -83,7 +83,7 @@ impl Steps {
     }
 
     pub(super) fn as_slice(&self) -> &[Step] {
-        &self.steps
+        &self.all
     }
 
     pub(super) fn length_m(&self) -> f64 {
@@ -93,7 +93,7 @@ impl Steps {
     /// The fastest speed with which the path can begin.
     pub(super) fn fastest_begin_mps(&self) -> f64 {
         let mut square = 0.0_f64;
-        for step in self.steps.iter().rev() {
+        for step in self.all.iter().rev() {
             let stops = square + 2.0 * self.braking_mps2 * step.length_m;
             square = stops.min(step.cap_mps * step.cap_mps);
             if step.stands_s.is_some() && step.begin_m > 0.0 {
@@ -139,7 +139,7 @@ impl Steps {
         let inside = |step: &&Step| {
             is_whole || (step.end_m() > from_m + LEAST_STEP_M && step.begin_m < to_m - LEAST_STEP_M)
         };
-        let mut steps: Vec<_> = self.steps.iter().filter(inside).copied().collect();
+        let mut steps: Vec<_> = self.all.iter().filter(inside).copied().collect();
         if is_whole {
             return steps;
         }

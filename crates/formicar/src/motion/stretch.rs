@@ -50,6 +50,19 @@ pub(super) struct Stretch {
 pub(super) struct Begin {
     pub(super) s_m: f64,
     pub(super) speed_mps: f64,
+    /// The units of the stretch, where they are known: those that fit a time step to a speed.
+    pub(super) n_units: Option<usize>,
+}
+
+impl Begin {
+    /// Standing at a place.
+    pub(super) fn at_rest(s_m: f64) -> Self {
+        Self {
+            s_m,
+            speed_mps: 0.0,
+            n_units: None,
+        }
+    }
 }
 
 /// Time quanta of acceleration: so many changes of speed in a step at full acceleration.
@@ -82,15 +95,16 @@ fn speed_step_mps(top_mps: f64, limits: &SpeedLimits, time_step_s: f64) -> f64 {
     top_mps / n_speeds
 }
 
-/// The time step with which a beginning in motion is on the lattice: at most the one given.
-pub(super) fn fitting_time_step_s(
+/// The time step with which a beginning in motion is on the lattice, at most the one given, and the
+/// beginning with the units that it fits.
+pub(super) fn fitted(
     steps: &[Step],
     begin: Begin,
     limits: &SpeedLimits,
     time_step_s: f64,
-) -> f64 {
+) -> (f64, Begin) {
     if begin.speed_mps <= 0.0 {
-        return time_step_s;
+        return (time_step_s, begin);
     }
     let top_mps = top_mps(steps).max(begin.speed_mps);
     let end_m = steps.last().map_or(begin.s_m, Step::end_m);
@@ -100,7 +114,12 @@ pub(super) fn fitting_time_step_s(
     let quantum = begin.speed_mps / n_quanta as f64;
     let unit_m = quantum * time_step_s / grain.per_unit;
     let n_units = grain.units((end_m - begin.s_m) / unit_m, n_quanta);
-    (end_m - begin.s_m) * grain.per_unit / (quantum * n_units as f64)
+    let fitting_s = (end_m - begin.s_m) * grain.per_unit / (quantum * n_units as f64);
+    let begin = Begin {
+        n_units: Some(n_units),
+        ..begin
+    };
+    (fitting_s, begin)
 }
 
 fn top_mps(steps: &[Step]) -> f64 {
@@ -179,14 +198,10 @@ impl Stretch {
         let end_m = steps.last().map_or(begin.s_m, Step::end_m);
         let length_m = end_m - begin.s_m;
         let top_mps = top_mps(steps).max(begin.speed_mps);
-        let mut quantum = speed_step_mps(top_mps, limits, time_step_s);
-        let mut n_quanta = 0;
-        if begin.speed_mps > 0.0 {
-            n_quanta = grain.speed_quanta(begin.speed_mps, quantum);
-            quantum = begin.speed_mps / n_quanta as f64;
-        }
-        let unit_m = quantum * time_step_s / grain.per_unit;
-        let n_units = grain.units(length_m / unit_m, n_quanta);
+        let n_units = begin.n_units.unwrap_or_else(|| {
+            let quantum = speed_step_mps(top_mps, limits, time_step_s);
+            grain.units(length_m * grain.per_unit / (quantum * time_step_s), 0)
+        });
         let unit_m = length_m / n_units as f64;
         let speed_step_mps = grain.per_unit * unit_m / time_step_s;
         let n_speeds = (top_mps / speed_step_mps * (1.0 + SAME)).floor().max(1.0) as i64;

@@ -4,6 +4,7 @@
 //! parameters, its search, and what it says of its failures. `door` holds what happens to every
 //! request, whichever search is asked; `catalog` names the planners.
 
+mod around;
 mod catalog;
 mod cells;
 mod chords;
@@ -26,6 +27,7 @@ mod search;
 mod task;
 
 pub use crate::search::{HybridAstarConfig, ImprovedAstarConfig};
+pub use around::{WayAround, way_around};
 pub use catalog::{PlannerConfig, PlannerName};
 pub use cells::{AstarParameters, DijkstraParameters, GridSearchConfig, ImprovedAstarParameters};
 pub use chords::ChordParameters;

@@ -1,6 +1,7 @@
 //! Pictures of a drive in time: arc length over time, and vehicles and obstacles as ghosts.
 
 use super::chart::{Axis, Chart, Limit, Ribbon, Series};
+use super::legend::Swatch;
 use super::{Picture, Scene, palette};
 use crate::geometry::Point2;
 use crate::motion::{MotionPlan, Region};
@@ -111,33 +112,47 @@ impl Scene {
         predictions: &Predictions,
         vehicle: &Vehicle,
     ) -> &mut Self {
+        if !predictions.obstacles().is_empty() {
+            self.legend
+                .add("moving obstacle", Swatch::Area(palette::LIMIT));
+        }
+        self.legend
+            .add("vehicle at a time", Swatch::Area(palette::FORWARD));
         let end_s = shown_s(timed, predictions);
         let step_s = nice_step_s(end_s / MAX_GHOSTS);
         let n_ghosts = (end_s / step_s).floor() as usize;
         for i in 0..=n_ghosts {
             let t_s = i as f64 * step_s;
-            let label = format!("{t_s} s");
+            let before_s = (i > 0).then_some(t_s - step_s);
             for obstacle in predictions.obstacles() {
-                let (corners, radius_m) = (obstacle.corners_at(t_s), obstacle.radius_at(t_s));
-                let before = i
-                    .checked_sub(1)
-                    .map(|i| obstacle.pose_at(i as f64 * step_s));
+                let before = before_s.map(|t_s| obstacle.pose_at(t_s));
                 // One that stands is drawn and named once.
                 if before != Some(obstacle.pose_at(t_s)) {
-                    self.ghost(&corners, radius_m, palette::LIMIT, &label);
+                    let (corners, radius_m) = (obstacle.corners_at(t_s), obstacle.radius_at(t_s));
+                    self.ghost(&corners, radius_m, palette::LIMIT, &format!("{t_s} s"));
                 }
             }
-            let standing = i > 0 && timed.at(t_s).s_m == timed.at(t_s - step_s).s_m;
-            if !standing {
-                let pose = timed.pose_at(t_s);
-                for part in vehicle.parts() {
-                    let label = if t_s > 0.0 { label.as_str() } else { "" };
-                    let corners = part.placed(pose);
-                    self.ghost(corners.corners(), 0.0, palette::FORWARD, label);
-                }
+            let stands =
+                before_s.is_some_and(|before_s| timed.at(t_s).s_m == timed.at(before_s).s_m);
+            if !stands {
+                self.ghost_vehicle(timed, t_s, vehicle);
             }
         }
         self
+    }
+
+    /// The vehicle at a time; at the beginning its mark as a start names it.
+    fn ghost_vehicle(&mut self, timed: &TimedPath, t_s: f64, vehicle: &Vehicle) {
+        let pose = timed.pose_at(t_s);
+        let label = if t_s > 0.0 {
+            format!("{t_s} s")
+        } else {
+            String::new()
+        };
+        for part in vehicle.parts() {
+            let corners = part.placed(pose);
+            self.ghost(corners.corners(), 0.0, palette::FORWARD, &label);
+        }
     }
 }
 

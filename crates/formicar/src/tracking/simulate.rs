@@ -200,15 +200,12 @@ impl Run {
     /// end is where the driven length says, and a step ends where the path's steering changes.
     fn step_length_m(&self, leg: &Leg) -> Option<f64> {
         let length_m = leg.stretch.length_m();
-        let [left_m, to_joint_m, least_m] = match self.config.controller {
-            Controller::OpenLoop => {
-                let joint_m = leg.stretch.next_joint_m(leg.driven_m);
-                [length_m - leg.driven_m, joint_m - leg.driven_m, 0.0]
-            }
-            _ => {
-                let least_m = LEAST_STEP * self.step_m;
-                [length_m - leg.offset.foot_m, f64::INFINITY, least_m]
-            }
+        let [left_m, to_joint_m, least_m] = if self.config.controller == Controller::OpenLoop {
+            let joint_m = leg.stretch.next_joint_m(leg.driven_m);
+            [length_m - leg.driven_m, joint_m - leg.driven_m, 0.0]
+        } else {
+            let least_m = LEAST_STEP * self.step_m;
+            [length_m - leg.offset.foot_m, f64::INFINITY, least_m]
         };
         (left_m > least_m).then(|| self.step_m.min(left_m).min(to_joint_m))
     }

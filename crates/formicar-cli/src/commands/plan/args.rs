@@ -100,9 +100,6 @@ pub(crate) struct PlanArgs {
     #[arg(long, value_name = "STEPS|none", value_parser = values::budget, allow_hyphen_values = true)]
     pub(crate) budget: Option<Budget>,
 
-    #[command(flatten)]
-    pub(crate) motion: MotionArgs,
-
     /// Write the answer (.json) or the poses of the path (.csv); may be repeated.
     #[arg(long, value_name = "F.json|F.csv", value_hint = ValueHint::FilePath, conflicts_with = "stdin")]
     pub(crate) out: Vec<PathBuf>,
@@ -129,4 +126,8 @@ pub(crate) struct PlanArgs {
     /// flags supply what a line leaves out.
     #[arg(long, conflicts_with = "json")]
     pub(crate) stdin: bool,
+
+    // Last, since its heading is that of all flags after it.
+    #[command(flatten)]
+    pub(crate) motion: MotionArgs,
 }

@@ -1,13 +1,18 @@
 //! `plan --moving ...`: the speed along the path, among things that move.
 
+use crate::session::Session;
 use crate::{motion_files, values};
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueHint};
 use formicar::collision::ObstacleMap;
 use formicar::motion::{MotionConfig, MotionError};
+use formicar::numeric::Seed;
 use formicar::path::{CurvePath, SpeedLimits};
-use formicar::planner::{DriveError, DriveQuestion, MotionRecord, TimedPlan, drive_in_time};
-use formicar::scenario::{Predictions, SpeedZones};
+use formicar::planner::{
+    DriveError, DriveQuestion, MotionRecord, TimedPlan, WayAround, drive_in_time, way_around,
+};
+use formicar::progress::StdClock;
+use formicar::scenario::{Predictions, Request, SpeedZones};
 use formicar::vehicle::Vehicle;
 use std::path::PathBuf;
 
@@ -63,6 +68,9 @@ pub(crate) struct MotionArgs {
     #[arg(long, value_name = "F[,BASE,MULTIPLIER]")]
     speed_zones: Option<String>,
 }
+
+/// A drive that loses less is not worth looking for a way around, seconds.
+const WORTH_A_LOOK_S: f64 = 1.0;
 
 /// What a speed is planned with.
 pub(crate) struct Motion {
@@ -179,6 +187,56 @@ impl Motion {
         let speed_zones = self.zones.as_ref().map(|(name, _)| name.clone());
         let record = record.with_speed_zones(speed_zones);
         Ok(Driven { record, plan })
+    }
+
+    /// A way around what is waited for, where it is better than the drive along the path.
+    pub(crate) fn around(
+        &self,
+        session: &Session,
+        (request, seed): (&Request, Seed),
+        driven: &Driven,
+    ) -> Result<Option<WayAround>> {
+        let loss_s = driven
+            .plan
+            .as_ref()
+            .map_or(f64::INFINITY, |plan| plan.motion.lost_s());
+        if loss_s < WORTH_A_LOOK_S || self.predictions.obstacles().is_empty() {
+            return Ok(None);
+        }
+        let question = DriveQuestion {
+            predictions: &self.predictions,
+            zones: self.zones.as_ref().map(|(_, zones)| zones),
+            config: &self.config,
+        };
+        let regions = driven
+            .plan
+            .as_ref()
+            .map(|plan| plan.motion.regions.as_slice());
+        let on = (&session.planner, &session.scene.map);
+        let mut clock = StdClock::start();
+        let found = way_around(
+            on,
+            (request, seed),
+            &mut clock,
+            &question,
+            regions.unwrap_or_default(),
+        )?;
+        let is_better = |way: &WayAround| way.drive.is_better_than(driven.plan.as_ref());
+        Ok(found.filter(is_better))
+    }
+
+    /// The record of a drive along a path.
+    pub(crate) fn driven(&self, plan: TimedPlan) -> Driven {
+        let question = DriveQuestion {
+            predictions: &self.predictions,
+            zones: self.zones.as_ref().map(|(_, zones)| zones),
+            config: &self.config,
+        };
+        let speed_zones = self.zones.as_ref().map(|(name, _)| name.clone());
+        Driven {
+            record: MotionRecord::new(&question, &plan).with_speed_zones(speed_zones),
+            plan: Some(plan),
+        }
     }
 
     pub(crate) fn predictions(&self) -> &Predictions {

@@ -426,6 +426,12 @@ impl AnswerContext<'_> {
 }
 
 impl Answer {
+    /// The same answer with other remarks.
+    #[must_use]
+    pub fn with_notes(self, notes: Vec<String>) -> Self {
+        Self { notes, ..self }
+    }
+
     /// The same answer with a drive along its path, whose poses get the times of the drive.
     #[must_use]
     pub fn with_motion(

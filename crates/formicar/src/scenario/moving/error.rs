@@ -69,7 +69,7 @@ pub enum MovingError {
         limit: usize,
     },
     /// A horizon that is none.
-    #[error("horizon_s = {value}; it must be above 0 and at most 3600 s")]
+    #[error("horizon_s = {value}; it must be above 0 and at most 600 s")]
     Horizon {
         /// Its value.
         value: f64,

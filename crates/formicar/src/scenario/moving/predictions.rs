@@ -49,7 +49,7 @@ pub struct Predicted {
 /// Most obstacles.
 const MAX_OBSTACLES: usize = 1000;
 /// The longest horizon, seconds.
-const MAX_HORIZON_S: f64 = 3600.0;
+const MAX_HORIZON_S: f64 = 600.0;
 
 impl Predictions {
     /// Obstacles and the time up to which they are predicted, seconds.

@@ -83,7 +83,10 @@ impl DriveMoment<'_> {
     /// it can stop at the end of the stretch.
     pub fn scheduled_speed_mps(&self) -> f64 {
         /// Rate at which a delay is made up for, 1/s.
-        const CATCH_UP_PER_S: f64 = 1.0;
+        const CATCH_UP_PER_S: f64 = 2.0;
+        /// A vehicle that is late by more than some millimeters drives at least so fast, m/s.
+        const CREEP_MPS: f64 = 0.05;
+        const LATE_M: f64 = 0.005;
         /// Share of the deceleration that is planned with.
         const BRAKING_SHARE: f64 = 0.8;
         let delay_s = self.limits.delay_s + 0.5 * self.limits.control_period_s;
@@ -96,7 +99,9 @@ impl DriveMoment<'_> {
         let late_m = due.s_m.clamp(begin_m, end_m) - own_m;
         let left_m = (end_m.min(self.reference.end().s_m) - own_m).max(0.0);
         let stoppable = (2.0 * BRAKING_SHARE * self.limits.braking_mps2 * left_m).sqrt();
-        (due_mps + CATCH_UP_PER_S * late_m).clamp(0.0, stoppable)
+        let creep_mps = if late_m > LATE_M { CREEP_MPS } else { 0.0 };
+        let wished_mps = due_mps + CATCH_UP_PER_S * late_m;
+        wished_mps.max(creep_mps).clamp(0.0, stoppable)
     }
 
     /// A command in the gear of the stretch; a vehicle that stands turns its wheels first.

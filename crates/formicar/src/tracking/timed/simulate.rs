@@ -77,7 +77,7 @@ pub fn track_by(
     let config = config.for_vehicle(vehicle)?;
     let stretches = stretches(timed.path())?;
     let n_steps = GIVE_UP_RATIO * timed.duration_s() / config.actuators.control_period_s;
-    if !(n_steps <= MAX_PERIODS) {
+    if !n_steps.is_finite() || n_steps > MAX_PERIODS {
         let limit = MAX_PERIODS;
         return Err(TrackingError::TooLong { n_steps, limit });
     }

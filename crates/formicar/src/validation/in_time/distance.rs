@@ -1,7 +1,7 @@
 //! The least distance from moving obstacles over time, proven by spans of time.
 
-use super::judge::DriveRules;
 use super::report::{Nearest, TimedReport, TimedViolation, TimedViolationKind};
+use super::rules::DriveRules;
 use crate::collision::MIN_CLEARANCE_M;
 use crate::geometry::Point2;
 use crate::path::TimedPath;

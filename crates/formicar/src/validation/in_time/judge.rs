@@ -3,26 +3,8 @@
 use super::distance::Distances;
 use super::profile::Profile;
 use super::report::{TimedReport, TimedViolation, TimedViolationKind};
-use crate::path::{SpeedLimits, TimedPath};
-use crate::scenario::{Predictions, SpeedZones};
-use crate::vehicle::Vehicle;
-
-/// The rules that a drive has to keep.
-#[derive(Clone, Copy, Debug)]
-pub struct DriveRules<'a> {
-    /// The vehicle.
-    pub vehicle: &'a Vehicle,
-    /// Limits of speed, acceleration and steering rate.
-    pub limits: &'a SpeedLimits,
-    /// Areas with speed limits of their own.
-    pub zones: Option<&'a SpeedZones>,
-    /// The speed with which the drive begins, m/s.
-    pub present_speed_mps: f64,
-    /// Moving obstacles.
-    pub predictions: &'a Predictions,
-    /// Least distance to be kept from them, meters.
-    pub distance_m: f64,
-}
+use super::rules::DriveRules;
+use crate::path::TimedPath;
 
 /// Judges a drive in time: that its phases join, that the vehicle stands where its gear changes and
 /// where its wheels turn, that it keeps the limits, and that its body keeps its distance from every

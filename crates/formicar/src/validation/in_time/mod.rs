@@ -4,6 +4,8 @@ mod distance;
 mod judge;
 mod profile;
 mod report;
+mod rules;
 
-pub use judge::{DriveRules, judge_in_time};
+pub use judge::judge_in_time;
 pub use report::{Nearest, TimedCertificate, TimedReport, TimedViolation, TimedViolationKind};
+pub use rules::DriveRules;

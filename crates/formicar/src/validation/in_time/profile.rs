@@ -1,7 +1,7 @@
 //! The profile by itself: phases that join, stops where they must be, limits.
 
-use super::judge::DriveRules;
 use super::report::{TimedReport, TimedViolation, TimedViolationKind as Kind};
+use super::rules::DriveRules;
 use crate::path::{CurveSegment, Phase, TimedPath, TimedState, steer_rate_rad_per_s};
 
 /// Gaps between phases: meters, seconds, m/s.
@@ -321,7 +321,7 @@ impl<'a> Profile<'a> {
         for (_, amount) in at_ends {
             report.max_lateral_mps2 = report.max_lateral_mps2.max(amount);
         }
-        if self.settle(report, what, at_ends, [bound, limit], depth) {
+        if self.settle(report, what, at_ends, [bound, limit]) || depth >= MAX_HALVINGS {
             return;
         }
         for half in piece.halves() {
@@ -350,7 +350,7 @@ impl<'a> Profile<'a> {
         };
         let what = (Kind::SteerRate, "steering rate (rad/s)");
         let bound = steer_rate(piece.top_mps(), piece.min_curvature());
-        if self.settle(report, what, at_ends, [bound, limit], depth) {
+        if self.settle(report, what, at_ends, [bound, limit]) || depth >= MAX_HALVINGS {
             return;
         }
         for half in piece.halves() {
@@ -365,7 +365,6 @@ impl<'a> Profile<'a> {
         (kind, what): (Kind, &str),
         at_ends: [(TimedState, f64); 2],
         [bound, limit]: [f64; 2],
-        depth: u32,
     ) -> bool {
         let allowed = limit * (1.0 + LIMIT_TOLERANCE);
         if bound <= allowed {
@@ -383,7 +382,7 @@ impl<'a> Profile<'a> {
             }
             return true;
         }
-        depth >= MAX_HALVINGS
+        false
     }
 
     fn check_zones(&self, report: &mut TimedReport) {
