@@ -245,7 +245,7 @@ mod tests {
             &ObstacleShape::Disc { radius_m: 0.3 },
             Pose2::new(6.0, 2.0, 0.0),
         );
-        let (world, pose) = (hall(), Pose2::new(4.5, 1.7, 2.9));
+        let (world, pose) = (hall(), Pose2::new(4.5, 1.7, 0.9));
         let mut random = Seed(1).stream([0, 0]);
         let sweep = lidar.sweep(
             &world,

@@ -36,6 +36,16 @@ pub(crate) fn free_m(obstacles: &ObstacleMap, body: &Body, path: &CurvePath) -> 
     free_m
 }
 
+/// The length of a path up to its first change of gear, or its end.
+pub(crate) fn first_gear_m(path: &CurvePath) -> f64 {
+    let segments = path.segments();
+    let first = segments.first().map(|segment| segment.direction);
+    let same = segments
+        .iter()
+        .take_while(|segment| Some(segment.direction) == first);
+    same.map(|segment| segment.length_m).sum()
+}
+
 /// Two paths one after the other.
 pub(crate) fn joined(first: &CurvePath, second: &CurvePath) -> CurvePath {
     let segments = first.segments().iter().chain(second.segments());
@@ -122,7 +132,9 @@ mod tests {
         let path = winding();
         let whole = joined(&path.between_m(0.0, 1.4), &path.between_m(1.4, 2.7));
         assert!((whole.length_m() - path.length_m()).abs() < 1e-9);
-        assert!(parting_m(&whole, &path, 2.7) < 1e-9);
+        let parting_m = parting_m(&whole, &path, 2.7);
+        assert!(parting_m < 1e-9, "{parting_m}");
+        assert_eq!(first_gear_m(&path), 2.0);
         let moved = from_pose(&path, Pose2::new(0.0, 0.0, 1.0));
         assert_eq!(moved.start(), Pose2::new(0.0, 0.0, 1.0));
     }

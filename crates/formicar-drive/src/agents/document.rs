@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 
 /// Name and version of the document of agents.
 pub const AGENTS_SCHEMA: &str = "formicar/agents/1";
-/// Agents are scripted for so long, seconds; then they stand.
-pub(super) const SCRIPT_S: f64 = 3600.0;
+/// Agents that heed nobody move for so long, seconds; then they stand.
+const SCRIPT_S: f64 = 600.0;
 
 /// Agents as a file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -49,9 +49,9 @@ pub struct Agent {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum AgentBehavior {
-    /// Poses at given times, evenly in between; it heeds nobody.
+    /// Poses at given times, evenly in between, for up to 600 s; it heeds nobody.
     Scripted(Vec<TimedWaypoint>),
-    /// A constant velocity; it heeds nobody.
+    /// A constant velocity, for 600 s; it heeds nobody.
     Velocity {
         /// Pose at the beginning, `[x, y, heading]`.
         pose: [f64; 3],

@@ -2,7 +2,7 @@
 
 use super::{Driver, DriverConfig, STANDS_MPS, UnknownGround};
 use crate::error::SetupError;
-use crate::route::NOTHING_M;
+use crate::route::{NOTHING_M, first_gear_m};
 use formicar::CurvePath;
 use formicar::motion::{MotionConfig, MotionError};
 use formicar::path::{Phase, TimedPath};
@@ -170,6 +170,12 @@ impl Driver {
             self.reference.hold();
             return;
         }
+        // The robot stops where the gear changes in any case: what follows is timed from there.
+        let end_m = if stands {
+            end_m
+        } else {
+            end_m.min(first_gear_m(&path))
+        };
         match self.speed_plan(&path.between_m(0.0, end_m), due_mps) {
             Some(timed) => {
                 self.counts.n_certified += 1;

@@ -178,6 +178,18 @@ struct Lead {
 
 impl Run<'_> {
     fn plan(&self, unhindered: TimedPath) -> Result<MotionPlan, MotionError> {
+        let is_alone = self.problem.predictions.obstacles().is_empty();
+        if is_alone && self.config.limits.max_jerk_mps3.is_none() {
+            // No lattice is needed.
+            return Ok(MotionPlan {
+                timed: unhindered,
+                status: MotionStatus::Arrives,
+                source: ProfileSource::Fastest,
+                unhindered_s: self.unhindered_s,
+                regions: Vec::new(),
+                time_step_s: self.config.time_step_s,
+            });
+        }
         let (time_step_s, begin) = self.fitted()?;
         let distance_m = self.config.distance_m;
         let forbidden = Forbidden::new(
