@@ -185,6 +185,7 @@ pub(crate) fn nearness(vehicle: &Vehicle, pose: Pose2, solid: &Solid) -> Nearnes
         gap_m: f64::INFINITY,
         from: pose.position(),
         to: solid.center(),
+        along: Point2::default(),
     })
 }
 
@@ -195,13 +196,7 @@ pub(crate) fn closing_mps(
     near: &Nearness,
     other_mps: Point2,
 ) -> [f64; 2] {
-    let way = near.to - near.from;
-    let way = if way.norm() > 1e-9 {
-        way
-    } else {
-        near.to - state.pose.position()
-    };
-    let along = way * (1.0 / way.norm().max(f64::MIN_POSITIVE));
+    let along = near.along;
     let rate = state.speed_mps * state.steer_rad.tan() / wheelbase_m;
     let arm = near.from - state.pose.position();
     let own = Point2::unit(state.pose.heading) * state.speed_mps + arm.perpendicular() * rate;
@@ -264,7 +259,8 @@ mod tests {
         let near = Nearness {
             gap_m: 0.0,
             from: Point2::new(0.4, 0.0),
-            to: Point2::new(0.4 + 1e-7, 0.0),
+            to: Point2::new(0.4, 0.0),
+            along: Point2::new(1.0, 0.0),
         };
         let state = |speed_mps| BicycleState {
             speed_mps,

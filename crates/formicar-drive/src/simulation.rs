@@ -290,10 +290,12 @@ impl Simulation {
             && !obstacles.is_free(&self.body, &in_grid)
         {
             let place = obstacles.contact(&self.vehicle, self.robot.state().pose);
+            let way = place - self.robot.state().pose.position();
             let near = Nearness {
                 gap_m: 0.0,
                 from: place,
                 to: place,
+                along: way * (1.0 / way.norm().max(f64::MIN_POSITIVE)),
             };
             self.touch(Contacted::Square, &near, Point2::default());
         }

@@ -23,6 +23,8 @@ pub struct Nearness {
     pub from: Point2,
     /// The nearest point of the second.
     pub to: Point2,
+    /// The unit vector from the first to the second; of bodies that overlap, between their middles.
+    pub along: Point2,
 }
 
 impl Solid {
@@ -90,6 +92,7 @@ impl Solid {
             gap_m: f64::INFINITY,
             from: self.center,
             to: other.center,
+            along: Point2::default(),
         };
         for &corner in &self.corners {
             best = nearer(best, corner, other.nearest_to(corner));
@@ -100,12 +103,18 @@ impl Solid {
         if self.overlaps(other) {
             best.gap_m = 0.0;
         }
-        let way = best.to - best.from;
+        let apart = best.gap_m > 0.0 && best.from != best.to;
+        let way = if apart {
+            best.to - best.from
+        } else {
+            other.center - self.center
+        };
         let along = way * (1.0 / way.norm().max(f64::MIN_POSITIVE));
         Nearness {
             gap_m: (best.gap_m - self.radius_m - other.radius_m).max(0.0),
             from: best.from + along * self.radius_m,
             to: best.to - along * other.radius_m,
+            along,
         }
     }
 
@@ -159,7 +168,12 @@ impl Solid {
 fn nearer(best: Nearness, from: Point2, to: Point2) -> Nearness {
     let gap_m = from.distance(to);
     if gap_m < best.gap_m {
-        Nearness { gap_m, from, to }
+        Nearness {
+            gap_m,
+            from,
+            to,
+            ..best
+        }
     } else {
         best
     }

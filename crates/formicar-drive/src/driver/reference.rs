@@ -14,8 +14,15 @@ use formicar::tracking::{
 use formicar::vehicle::BicycleState;
 use std::collections::VecDeque;
 
+/// A robot that is so much off its place on the timed path begins the next one where it is, meters.
+const LAG_M: f64 = 0.1;
 /// From a stand, shorter hops are not driven, unless they end the path, meters.
 const LEAST_HOP_M: f64 = 0.05;
+/// On shorter paths there is no room to let anyone pass, meters: the robot goes, or, where someone is
+/// near, waits.
+const SHORT_M: f64 = 0.05;
+/// Someone so near to the robot's reach is waited for, meters.
+const NEAR_M: f64 = 1.0;
 /// A speed plan is asked for again with less distance from what moves, in shares.
 const DISTANCE_SHARES: [f64; 3] = [1.0, 0.5, 0.1];
 /// A speed above the limit of a path by less is rounded down to it: a share and m/s.
@@ -28,6 +35,8 @@ pub(super) struct Reference {
     asks_for_clearance: bool,
     limits: DriveLimits,
     follower: Option<Follower>,
+    /// The speed with which the next timed path begins, m/s, at least 0.
+    present_mps: f64,
     /// Commands with the times at which they take effect.
     pending: VecDeque<(f64, DriveCommand)>,
 }
@@ -39,6 +48,7 @@ impl Reference {
             asks_for_clearance: matches!(config.controller, Controller::RegulatedPurePursuit(_)),
             limits,
             follower: None,
+            present_mps: 0.0,
             pending: VecDeque::new(),
         })
     }
@@ -54,33 +64,39 @@ impl Reference {
     /// Lets the robot stand.
     pub(super) fn hold(&mut self) {
         self.follower = None;
+        self.present_mps = 0.0;
     }
 
     fn follow(&mut self, timed: TimedPath) {
         self.follower = Follower::new(timed, self.limits).ok();
     }
 
-    /// The length driven on the timed path by a time, meters.
-    pub(super) fn due_m(&self, t_s: f64) -> f64 {
-        let timed = self.follower.as_ref().map(Follower::timed);
-        timed.map_or(0.0, |timed| timed.at(t_s).s_m)
+    /// The speed with which the next timed path begins, m/s, at least 0.
+    pub(super) fn present_mps(&self) -> f64 {
+        self.present_mps
     }
 
-    /// The speed that is due at a time, m/s, at least 0.
-    pub(super) fn due_mps(&self, t_s: f64) -> f64 {
-        let timed = self.follower.as_ref().map(Follower::timed);
-        timed.map_or(0.0, |timed| timed.at(t_s).speed_mps)
-    }
-
-    /// How far the robot is from where it is due, meters.
-    fn error_m(&self, t_s: f64, state: BicycleState) -> f64 {
-        let timed = self.follower.as_ref().map(Follower::timed);
-        timed.map_or(0.0, |timed| {
-            timed
-                .pose_at(t_s)
-                .position()
-                .distance(state.pose.position())
-        })
+    /// The length of the timed path that is behind the robot; none where it is far off the path.
+    ///
+    /// That is the length due by now, which keeps one timed path in step with the next. A robot that
+    /// lags, since its controller is careful, is where it is.
+    fn behind_m(&mut self, t_s: f64, state: BicycleState, max_error_m: f64) -> Option<f64> {
+        let Some(follower) = &self.follower else {
+            self.present_mps = 0.0;
+            return Some(0.0);
+        };
+        let [error_m, _] = follower.error(state.pose);
+        if error_m > max_error_m {
+            return None;
+        }
+        let due = follower.timed().at(t_s);
+        let lags = (due.s_m - follower.s_m()).abs() > LAG_M;
+        self.present_mps = if lags {
+            state.speed_mps.abs()
+        } else {
+            due.speed_mps
+        };
+        Some(if lags { follower.s_m() } else { due.s_m })
     }
 
     pub(super) fn command(
@@ -141,19 +157,20 @@ impl Driver {
     /// Cuts off what has been driven; a robot far from where it is due stops.
     pub(super) fn advance(&mut self) {
         let (t_s, state) = (self.senses.t_s(), self.senses.state());
-        if self.reference.error_m(t_s, state) > self.config.max_error_m {
+        let max_error_m = self.config.max_error_m;
+        if let Some(behind_m) = self.reference.behind_m(t_s, state, max_error_m) {
+            self.routing.advance(behind_m);
+        } else {
             self.counts.n_emergency_brakes += 1;
             self.reference.hold();
             self.routing.forget();
-            return;
         }
-        self.routing.advance(self.reference.due_m(t_s));
     }
 
     /// Plans the speed along the path as far as it has been seen and is free.
     pub(super) fn set_times(&mut self) {
         let t_s = self.senses.t_s();
-        let due_mps = self.reference.due_mps(t_s);
+        let due_mps = self.reference.present_mps();
         let Some(path) = self.routing.path().cloned() else {
             self.stop(due_mps, None);
             return;
@@ -207,6 +224,15 @@ impl Driver {
     /// cannot be kept.
     fn speed_plan(&self, path: &CurvePath, present_mps: f64) -> Option<TimedPath> {
         let obstacles = self.senses.predicted();
+        if path.length_m() < SHORT_M && !obstacles.is_empty() {
+            let near_m = self.vehicle.footprint().circumradius() + NEAR_M;
+            let waits = present_mps == 0.0 && self.senses.has_company(near_m);
+            return if waits {
+                None
+            } else {
+                self.speed_plan_alone(path, present_mps)
+            };
+        }
         let shares = if obstacles.is_empty() {
             &DISTANCE_SHARES[..1]
         } else {
@@ -221,6 +247,16 @@ impl Driver {
             };
             self.certified(path, &obstacles, &config)
         })
+    }
+
+    /// A speed plan that heeds nobody.
+    fn speed_plan_alone(&self, path: &CurvePath, present_mps: f64) -> Option<TimedPath> {
+        let config = MotionConfig {
+            limits: self.limits_of_plan().clone(),
+            present_speed_mps: present_mps,
+            ..MotionConfig::default()
+        };
+        self.certified(path, &[], &config)
     }
 
     fn certified(

@@ -208,7 +208,7 @@ impl Driver {
         let Some(route) = self.routing.route.take() else {
             return Ok(());
         };
-        let due_mps = self.reference.due_mps(self.senses.t_s());
+        let due_mps = self.reference.present_mps();
         if due_mps == 0.0 && self.senses.state().speed_mps.abs() < STANDS_MPS {
             self.routing.route = Some(route);
             return self.replan_standing(first, is_blocked, observer);
