@@ -90,6 +90,26 @@ pub const MAPPING: &[&str] = &[
     "report",
 ];
 
+/// Drives in simulation.
+pub const DRIVE: &[&str] = &[
+    "error",
+    "random",
+    "limits",
+    "solid",
+    "world",
+    "lidar",
+    "agents",
+    "contact",
+    "simulation",
+    "known_map",
+    "estimate",
+    "route",
+    "driver",
+    "record",
+    "run",
+    "picture",
+];
+
 /// The studio.
 pub const STUDIO: &[&str] = &[
     "options",

@@ -211,10 +211,14 @@ pub(crate) fn contact(
     (other_mps, t_s): (Point2, f64),
 ) -> Contact {
     let closing = closing_mps(state, wheelbase_m, near, other_mps);
+    let by = match with {
+        Contacted::Agent(_) => Culprit::of(state.speed_mps, closing),
+        _ => Culprit::Robot,
+    };
     Contact {
         t_s,
         with,
-        by: Culprit::of(state.speed_mps, closing),
+        by,
         place: near.to,
         pose: state.pose,
         robot_mps: state.speed_mps,
@@ -268,7 +272,8 @@ mod tests {
         };
         let by = |robot, other: f64| {
             let other = (Point2::new(other, 0.0), 1.0);
-            contact((state(robot), 0.33), Contacted::Solid, &near, other).by
+            let with = Contacted::Agent("a".to_owned());
+            contact((state(robot), 0.33), with, &near, other).by
         };
         assert_eq!(by(1.0, 0.0), Culprit::Robot);
         assert_eq!(by(1.0, 0.5), Culprit::Robot);

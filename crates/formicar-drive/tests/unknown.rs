@@ -37,8 +37,8 @@ fn corner() -> World {
     for row in rows.iter_mut().take(28).skip(14) {
         row.replace_range(40..42, "##");
     }
-    for row in rows.iter_mut().take(14).skip(10) {
-        row.replace_range(46..50, "####");
+    for row in rows.iter_mut().take(14).skip(11) {
+        row.replace_range(54..57, "###");
     }
     let rows: Vec<&str> = rows.iter().map(String::as_str).collect();
     World::new(OccupancyGrid::from_rows(&rows, 0.1).unwrap(), Vec::new())

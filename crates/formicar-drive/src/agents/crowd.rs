@@ -1,6 +1,7 @@
 //! All agents of a world, moved together.
 
 use super::document::{Agent, AgentBehavior, pose_of};
+use super::surroundings::Surroundings;
 use super::walker::Walk;
 use crate::error::SetupError;
 use crate::random::{Draw, stream};
@@ -40,13 +41,6 @@ struct Member {
     target: Point2,
     /// The way point that a cart drives to, and whether it is on its way back.
     leg: (usize, bool),
-}
-
-/// What agents see.
-pub(crate) struct Surroundings<'a> {
-    pub(crate) world: &'a World,
-    /// The parts of the robot.
-    pub(crate) robot: &'a [Solid],
 }
 
 impl Crowd {

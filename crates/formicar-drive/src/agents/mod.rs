@@ -2,8 +2,10 @@
 
 mod crowd;
 mod document;
+mod surroundings;
 mod walker;
 
+pub(crate) use crowd::Crowd;
 pub use crowd::random_walkers;
-pub(crate) use crowd::{Crowd, Surroundings};
 pub use document::{AGENTS_SCHEMA, Agent, AgentBehavior, AgentsDocument};
+pub(crate) use surroundings::Surroundings;

@@ -5,7 +5,7 @@
 //! by a force that falls exponentially with the gap (3). The constants are those of Helbing, Farkas
 //! and Vicsek (2000), scaled to unit mass, without body contact: nobody is pushed through another.
 
-use super::crowd::Surroundings;
+use super::surroundings::Surroundings;
 use crate::solid::Solid;
 use formicar::Point2;
 

@@ -1,6 +1,6 @@
 //! Planners on what is known, one per margin, and the ground that has been seen.
 
-use super::DriverConfig;
+use super::config::DriverConfig;
 use crate::error::SetupError;
 use crate::known_map::{KnownChange, KnownMap};
 use crate::limits::{plan_error, with_margin};

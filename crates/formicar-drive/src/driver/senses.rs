@@ -1,6 +1,6 @@
 //! What the robot makes of its observations: pose, map, what moves.
 
-use super::DriverConfig;
+use super::config::DriverConfig;
 use crate::estimate::PoseFilter;
 use crate::known_map::{KnownChange, KnownMap};
 use crate::lidar::Sweep;
