@@ -1,7 +1,8 @@
 //! The worlds of the BARN challenge (D. Perille, A. Truong, X. Xiao and P. Stone, *Benchmarking
 //! Metric Ground Navigation*, SSRR 2020), driven with an unknown map: a line of CSV per drive.
 //!
-//! `barn WORLDS.json [FIRST..END [SEEDS [FOLDER]]]`; a folder gets a picture of every failure.
+//! `barn WORLDS.json [FIRST..END [FIRST..END [FOLDER]]]`: worlds and seeds, without the last; a folder
+//! gets a picture of every drive that fails.
 
 use formicar::map::GridFrame;
 use formicar::progress::StdClock;
@@ -149,34 +150,33 @@ fn score(case: &Case, record: &DriveRecord) -> f64 {
     best_s / record.duration_s.clamp(2.0 * best_s, 8.0 * best_s)
 }
 
+fn range(words: &str) -> Result<std::ops::Range<u64>, Box<dyn Error>> {
+    let (first, end) = words.split_once("..").ok_or("a range is FIRST..END")?;
+    Ok(first.parse()?..end.parse()?)
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
     let mut words = std::env::args().skip(1);
-    let file = words
-        .next()
-        .ok_or("barn WORLDS.json [FIRST..END [SEEDS [FOLDER]]]")?;
+    let usage = "barn WORLDS.json [FIRST..END [FIRST..END [FOLDER]]]";
+    let file = words.next().ok_or(usage)?;
     let barn: Barn = serde_json::from_str(&fs::read_to_string(file)?)?;
-    let range = words.next().unwrap_or_else(|| "0..300".to_owned());
-    let (first, end) = range.split_once("..").ok_or("FIRST..END")?;
-    let (first, end): (usize, usize) = (first.parse()?, end.parse()?);
-    let n_seeds: u64 = words.next().map_or(Ok(1), |n| n.parse())?;
+    let worlds = range(&words.next().unwrap_or_else(|| "0..300".to_owned()))?;
+    let seeds = range(&words.next().unwrap_or_else(|| "1..2".to_owned()))?;
     let folder = words.next();
     println!(
         "world,seed,status,time_s,driven_m,known_m,score,min_distance_m,max_speed_mps,stops,\
          routes,flips,brakes,recoveries,controller_failures,plan_median_ms,plan_p99_ms,plan_worst_ms,\
          control_median_ms,control_p99_ms,control_worst_ms"
     );
-    for world in first..end {
+    for world in worlds {
         let Some(cylinders) = barn.worlds.get(&world.to_string()) else {
             continue;
         };
         let case = barn.case(cylinders)?;
-        for seed in 1..=n_seeds {
+        for seed in seeds.clone() {
             let record = driven(&case, seed)?;
             print_row((world, seed), &case, &record);
-            if let Some(folder) = folder
-                .as_ref()
-                .filter(|_| !record.succeeds() || n_seeds == 1 && end - first < 8)
-            {
+            if let Some(folder) = folder.as_ref().filter(|_| !record.succeeds()) {
                 let picture = drive_picture(&DriveView {
                     map: case.world.map(),
                     solids: case.world.solids(),
@@ -192,7 +192,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn print_row((world, seed): (usize, u64), case: &Case, record: &DriveRecord) {
+fn print_row((world, seed): (u64, u64), case: &Case, record: &DriveRecord) {
     let counts = record.driver;
     print!(
         "{world},{seed},{},{:.2},{:.3},{:.3},{:.4},{:.4},{:.2},{},{},{},{},{},{}",

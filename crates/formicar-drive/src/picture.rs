@@ -2,8 +2,7 @@
 
 use crate::record::{DrivePoint, DriveRecord};
 use crate::solid::Solid;
-use formicar::collision::Drive;
-use formicar::path::{CurvePath, Direction};
+use formicar::path::{CurvePath, CurveSegment, Direction};
 use formicar::render::{
     Axis, Chart, Color, Dash, LineStyle, Picture, PoseMark, Scene, Series, palette,
 };
@@ -48,9 +47,10 @@ pub fn drive_picture(of: &DriveView) -> Picture {
     }
     draw_ends(&mut scene, of);
     for contact in &of.record.contacts {
-        let name = match contact.by.is_robot() {
-            true => "collision",
-            false => "was hit",
+        let name = if contact.by.is_robot() {
+            "collision"
+        } else {
+            "was hit"
         };
         scene.point(contact.place, name);
     }
@@ -139,45 +139,40 @@ fn outline(scene: &mut Scene, solid: &Solid, color: Color, width_px: f64) {
 
 /// The trace as a path of arcs between its points.
 fn driven(trace: &[DrivePoint]) -> CurvePath {
-    let mut path = CurvePath::new(trace.first().map_or(Pose2::default(), |p| p.pose));
-    for pair in trace.windows(2) {
-        let way = pair[0].pose.relative(pair[1].pose);
-        let chord_m = way.position().norm();
-        if chord_m < 1e-4 {
-            continue;
-        }
-        let direction = if way.x >= 0.0 {
-            Direction::Forward
-        } else {
-            Direction::Reverse
-        };
-        let half_rad = 0.5 * formicar::geometry::wrap_angle(way.heading);
-        let bulge = if half_rad.abs() < 1e-6 {
-            1.0
-        } else {
-            half_rad / half_rad.sin()
-        };
-        let length_m = chord_m * bulge;
-        let drive = Drive {
-            start: pair[0].pose,
-            curvature_per_m: direction.sign() * 2.0 * half_rad / length_m,
-            signed_length_m: direction.sign() * length_m,
-        };
-        path = appended(path, &drive, direction);
-    }
-    path
+    let start = trace.first().map_or(Pose2::default(), |p| p.pose);
+    let pairs = trace.windows(2);
+    let segments = pairs.filter_map(|pair| arc_between(pair[0].pose, pair[1].pose));
+    CurvePath::from_segments(start, segments.collect())
 }
 
-fn appended(path: CurvePath, drive: &Drive, direction: Direction) -> CurvePath {
-    let mut segments = path.segments().to_vec();
-    segments.push(formicar::path::CurveSegment {
-        start: drive.start,
-        curvature_per_m: drive.curvature_per_m,
+/// The arc from one pose to the place of the next; none where they are one.
+fn arc_between(from: Pose2, to: Pose2) -> Option<CurveSegment> {
+    /// Poses nearer to each other are one, meters.
+    const SAME_M: f64 = 1e-4;
+    let way = from.relative(to);
+    let chord_m = way.position().norm();
+    if chord_m < SAME_M {
+        return None;
+    }
+    let direction = if way.x >= 0.0 {
+        Direction::Forward
+    } else {
+        Direction::Reverse
+    };
+    let half_rad = 0.5 * formicar::geometry::wrap_angle(way.heading);
+    let bulge = if half_rad.abs() < 1e-6 {
+        1.0
+    } else {
+        half_rad / half_rad.sin()
+    };
+    let length_m = chord_m * bulge;
+    Some(CurveSegment {
+        start: from,
+        curvature_per_m: direction.sign() * 2.0 * half_rad / length_m,
         curvature_rate_per_m2: 0.0,
-        length_m: drive.signed_length_m.abs(),
+        length_m,
         direction,
-    });
-    CurvePath::from_segments(path.start(), segments)
+    })
 }
 
 fn charts(trace: &[DrivePoint]) -> Vec<Chart> {

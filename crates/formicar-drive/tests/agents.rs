@@ -52,7 +52,7 @@ fn who_runs_into_a_standing_robot_is_to_blame() {
     case.run.max_time_s = 4.0;
     let at = |t_s, x| TimedWaypoint {
         t_s,
-        pose: [x, 3.0, 3.14],
+        pose: [x, 3.0, 3.0],
     };
     case.agents = vec![disc(AgentBehavior::Scripted(vec![
         at(0.0, 4.0),

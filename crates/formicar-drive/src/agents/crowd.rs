@@ -236,9 +236,8 @@ impl Member {
             self.pose = pose_of(Point2::new(x, y), self.pose.heading);
             self.leg = match (next, is_back) {
                 (0, true) => (1, false),
-                (i, true) => (i - 1, true),
                 (i, false) if i + 1 < line.len() => (i + 1, false),
-                (i, false) => (i - 1, true),
+                (i, _) => (i - 1, true),
             };
         }
     }
@@ -316,7 +315,7 @@ pub fn random_walkers(
         let local = Point2::new(random.range(0.0, extent.x), random.range(0.0, extent.y));
         let place = frame.to_world(Pose2::at(local, 0.0)).position();
         let speed_mps = random.range(0.6, 1.4);
-        let agent = Agent::walker(place, speed_mps, agents.len() % 2 == 0);
+        let agent = Agent::walker(place, speed_mps, agents.len().is_multiple_of(2));
         let body = Solid::placed(&agent.shape, Pose2::at(place, 0.0));
         let is_far = place.distance(start.position()) > room_m;
         let is_alone = bodies.iter().all(|other| other.gap_bound_m(&body) > 0.1);

@@ -22,7 +22,7 @@ struct Lane {
 
 /// Planners from the widest margin to the narrowest, the last of them on known ground alone.
 pub(super) struct Lanes {
-    lanes: Vec<Lane>,
+    all: Vec<Lane>,
     /// The known map with unknown cells occupied.
     seen: ObstacleMap,
     /// The body with the narrowest margin.
@@ -58,16 +58,16 @@ impl Lanes {
         let narrowest_m = config.margins_m.last().copied().unwrap_or(0.0);
         lanes.push(lane(narrowest_m, OCCUPIED)?);
         Ok(Self {
-            lanes,
+            all: lanes,
             seen: ObstacleMap::new(&decided(known, OCCUPIED)?),
             guard: Body::new(&with_margin(vehicle, narrowest_m)?),
         })
     }
 
     pub(super) fn update(&mut self, change: &KnownChange) -> Result<(), SetupError> {
-        for lane in &mut self.lanes {
+        for lane in &mut self.all {
             let values = change.with_unknown_as(lane.unknown_is);
-            lane.planner.update_map(change.region.clone(), &values)?;
+            lane.planner.update_map(change.region, &values)?;
         }
         let values = change.with_unknown_as(OCCUPIED);
         let updated = self.seen.update(&change.region, &values);
@@ -76,12 +76,12 @@ impl Lanes {
 
     /// The last lane: known ground alone.
     pub(super) fn cautious(&self) -> usize {
-        self.lanes.len() - 1
+        self.all.len() - 1
     }
 
     /// The length of a path that is free on the map of a lane, with its margin.
     pub(super) fn free_m(&self, lane: usize, path: &CurvePath) -> f64 {
-        let lane = &self.lanes[lane];
+        let lane = &self.all[lane];
         free_m(lane.planner.obstacles(), &lane.body, path)
     }
 
@@ -92,12 +92,12 @@ impl Lanes {
 
     /// The length of a path on which no obstacle is known, with the narrowest margin.
     pub(super) fn open_m(&self, path: &CurvePath) -> f64 {
-        free_m(self.lanes[0].planner.obstacles(), &self.guard, path)
+        free_m(self.all[0].planner.obstacles(), &self.guard, path)
     }
 
     /// Distance of the robot, with the narrowest margin, from the nearest known obstacle, meters.
     pub(super) fn clearance_m(&self, pose: Pose2) -> f64 {
-        let obstacles = self.lanes[0].planner.obstacles();
+        let obstacles = self.all[0].planner.obstacles();
         obstacles.clearance_m(&self.guard, obstacles.frame().to_grid(pose))
     }
 
@@ -108,7 +108,7 @@ impl Lanes {
         config: &DriverConfig,
         (n_searches, observer): (&mut usize, &mut dyn Observer),
     ) -> Result<Option<(CurvePath, usize)>, SetupError> {
-        for (i, lane) in self.lanes.iter_mut().enumerate().skip(search.first) {
+        for (i, lane) in self.all.iter_mut().enumerate().skip(search.first) {
             *n_searches += 1;
             if let Some(path) = lane.search(search, config, observer)? {
                 return Ok(Some((path, i)));
