@@ -98,7 +98,7 @@ enum Command {
     /// Plan a path that the vehicle can drive.
     Plan(Box<plan::PlanArgs>),
     /// Judge a path of any origin; exit code 3 if the vehicle cannot drive it.
-    Check(check::CheckArgs),
+    Check(Box<check::CheckArgs>),
     /// Drive a path in simulation; exit code 3 if the vehicle collides or does not arrive.
     Track(Box<track::TrackArgs>),
     /// Drive a robot through a simulated world, which it senses; exit code 3 if it collides or does

@@ -1,4 +1,5 @@
 //! A robot drives through a hall that it does not know, among walkers: a picture of the drive.
+#![allow(clippy::print_stdout, reason = "an example talks to its reader")]
 
 use formicar::scenario::GoalHeading;
 use formicar::{OccupancyGrid, Pose2, Seed, Vehicle};

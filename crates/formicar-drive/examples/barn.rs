@@ -3,6 +3,7 @@
 //!
 //! `barn WORLDS.json [FIRST..END [FIRST..END [FOLDER]]]`: worlds and seeds, without the last; a folder
 //! gets a picture of every drive that fails.
+#![allow(clippy::print_stdout, reason = "an example talks to its reader")]
 
 use formicar::map::GridFrame;
 use formicar::progress::StdClock;
@@ -158,7 +159,10 @@ fn range(words: &str) -> Result<std::ops::Range<u64>, Box<dyn Error>> {
 fn main() -> Result<(), Box<dyn Error>> {
     let mut words = std::env::args().skip(1);
     let usage = "barn WORLDS.json [FIRST..END [FIRST..END [FOLDER]]]";
-    let file = words.next().ok_or(usage)?;
+    let Some(file) = words.next() else {
+        println!("{usage}");
+        return Ok(());
+    };
     let barn: Barn = serde_json::from_str(&fs::read_to_string(file)?)?;
     let worlds = range(&words.next().unwrap_or_else(|| "0..300".to_owned()))?;
     let seeds = range(&words.next().unwrap_or_else(|| "1..2".to_owned()))?;

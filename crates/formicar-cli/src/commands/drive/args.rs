@@ -169,7 +169,7 @@ impl DriveArgs {
                 UnknownGround::StopBefore
             },
             controller: match self.controller {
-                None => usual.controller.clone(),
+                None => usual.controller,
                 Some(Law::Mpc) => Controller::Mpc(MpcParameters::default()),
                 Some(Law::RegulatedPurePursuit) => {
                     Controller::RegulatedPurePursuit(RegulatedPurePursuit::default())
