@@ -28,7 +28,7 @@ pub(super) const STANDS_MPS: f64 = 0.02;
 ///
 /// - Unknown ground may be planned through, but the timed path always ends within ground that has
 ///   been seen and is free: the robot never drives faster than it can stop there (see
-///   [`UnknownGround`]).
+///   [`UnknownGround`](crate::UnknownGround)).
 /// - The path is planned anew where the map has changed under it, and now and then since more is
 ///   known. A new path begins where the robot can have stopped, so that it may begin with a change
 ///   of gear.
