@@ -28,7 +28,12 @@ enum Treatment {
 }
 
 /// The exceptions: what a command contains, its treatment and the reason.
-const EXCEPTIONS: [(&str, Treatment, &str); 25] = [
+const EXCEPTIONS: [(&str, Treatment, &str); 26] = [
+    (
+        "formicar drive",
+        Treatment::Slow,
+        "a drive through a warehouse, and its film",
+    ),
     ("cargo ", Treatment::Skip, "what runs this test"),
     (
         "ompl_benchmark_statistics",
