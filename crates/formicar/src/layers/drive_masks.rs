@@ -3,6 +3,7 @@
 use super::bit_mask::{ROUNDING, RowSpans};
 use crate::geometry::{ConvexPolygon, Point2, Pose2};
 use crate::map::PaddedGrid;
+use crate::numeric::integer_below;
 use crate::vehicle::{Primitive, PrimitiveSet, Vehicle};
 use std::sync::OnceLock;
 
@@ -91,7 +92,7 @@ impl DriveMasks {
             position.x / self.resolution_m,
             position.y / self.resolution_m,
         );
-        let (col, row) = (floor(x), floor(y));
+        let (col, row) = (integer_below(x), integer_below(y));
         let sub = |fraction: f64| ((fraction * SUB_CELLS as f64) as usize).min(SUB_CELLS - 1);
         let place = sub(y - row as f64) * SUB_CELLS + sub(x - col as f64);
         let of_motion = self.of_motion(heading_index, primitive);
@@ -179,13 +180,6 @@ impl MotionMasks {
         words.shrink_to_fit();
         Self { masks, words }
     }
-}
-
-/// The integer below a number: `f64::floor` is a call where the target lacks an instruction for it.
-#[inline]
-fn floor(v: f64) -> i64 {
-    let truncated = v as i64;
-    truncated - i64::from(truncated as f64 > v)
 }
 
 #[cfg(test)]
