@@ -35,7 +35,9 @@ impl RosMapDescription {
             .into());
         }
         let frame = GridFrame::new(image.n_cols, image.n_rows, self.resolution_m, self.origin)?;
-        let mut table = [UNKNOWN; 1 << u16::BITS];
+        // A value for whatever 16 bits hold: no look is out of range.
+        let table = vec![UNKNOWN; 1 << u16::BITS];
+        let mut table: Box<[i8; 1 << u16::BITS]> = table.try_into().expect("as many");
         for grey in 0..=image.max_value {
             table[usize::from(grey)] = self.cell_value(grey, image.max_value);
         }
