@@ -333,6 +333,7 @@ mod tests {
                     at_s: 0.1,
                     steps: 3,
                     length_m: 2.5,
+                    ..Improvement::default()
                 }],
                 iterations: Vec::new(),
             },

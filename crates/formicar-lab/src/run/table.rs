@@ -181,7 +181,7 @@ mod tests {
         assert!(error.contains("line 3: a second row of one run"), "{error}");
         let short = format!("{text}b,astar,0,found\n");
         let error = read_torn_csv(&short).unwrap_err().to_string();
-        assert!(error.contains("line 3: no row of 54 values"), "{error}");
+        assert!(error.contains("line 3: no row of 58 values"), "{error}");
         assert_eq!(read_torn_csv("").unwrap(), []);
     }
 }

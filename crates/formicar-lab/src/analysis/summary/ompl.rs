@@ -99,6 +99,7 @@ mod tests {
                 at_s: 0.25,
                 steps: 7,
                 length_m,
+                ..Improvement::default()
             }];
             run
         };
