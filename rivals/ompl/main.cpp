@@ -183,7 +183,10 @@ private:
     void improve() {
         std::unique_ptr<ob::Planner> planner;
         if (options_.planner == "bitstar") {
-            planner = std::make_unique<og::BITstar>(information_);
+            auto bitstar = std::make_unique<og::BITstar>(information_);
+            // In a space whose distances are not symmetric, pruning takes the goal away and crashes.
+            bitstar->setPruning(information_->getStateSpace()->hasSymmetricDistance());
+            planner = std::move(bitstar);
         } else {
             planner = std::make_unique<og::RRTstar>(information_);
         }
