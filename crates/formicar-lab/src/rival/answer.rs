@@ -121,9 +121,16 @@ impl RivalAnswer {
         let n = self.improvements.len();
         let told = [
             ("improvements_cpu_s", self.improvements_cpu_s.len(), n),
-            ("earlier_poses", self.earlier_poses.len(), n.saturating_sub(1)),
+            (
+                "earlier_poses",
+                self.earlier_poses.len(),
+                n.saturating_sub(1),
+            ),
         ];
-        match told.iter().find(|(_, n_told, n)| *n_told > 0 && n_told != n) {
+        match told
+            .iter()
+            .find(|(_, n_told, n)| *n_told > 0 && n_told != n)
+        {
             Some((field, n_told, n)) => {
                 bail!("{field}: {n_told} of them; expected {n}, as improvements tells")
             }
@@ -140,13 +147,18 @@ impl RivalAnswer {
     pub fn samples_of(&self, improvement: usize) -> Option<Samples> {
         let is_last = improvement + 1 == self.improvements.len();
         let poses = is_last.then_some(&self.poses);
-        poses.or(self.earlier_poses.get(improvement)).map(|poses| samples(poses))
+        poses
+            .or(self.earlier_poses.get(improvement))
+            .map(|poses| samples(poses))
     }
 }
 
 fn check_poses(field: &str, poses: &[Vec<f64>]) -> Result<()> {
     if poses.len() > MAX_POSES {
-        bail!("{field}: {} of them; expected at most {MAX_POSES}", poses.len());
+        bail!(
+            "{field}: {} of them; expected at most {MAX_POSES}",
+            poses.len()
+        );
     }
     let n_numbers = poses.first().map_or(3, Vec::len);
     let is_pose = |pose: &Vec<f64>| {
@@ -166,7 +178,10 @@ fn samples(poses: &[Vec<f64>]) -> Samples {
     let has_headings = poses.first().is_some_and(|pose| pose.len() == 3);
     let headings = || poses.iter().map(|pose| pose[2]).collect();
     Samples {
-        points: poses.iter().map(|pose| Point2::new(pose[0], pose[1])).collect(),
+        points: poses
+            .iter()
+            .map(|pose| Point2::new(pose[0], pose[1]))
+            .collect(),
         headings: has_headings.then(headings),
         rounding_m: 0.0,
     }

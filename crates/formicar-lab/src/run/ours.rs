@@ -182,7 +182,10 @@ impl OurRun<'_> {
         let colony = stages.and_then(ColonyRecord::new);
         let iterations = colony.map_or(Vec::new(), |colony| colony.iterations);
         let mut history = History::new(self.priced(&counted.answer), &iterations);
-        history.cold = counted.cold.as_ref().map_or(Vec::new(), |cold| self.priced(cold));
+        history.cold = counted
+            .cold
+            .as_ref()
+            .map_or(Vec::new(), |cold| self.priced(cold));
         history
     }
 

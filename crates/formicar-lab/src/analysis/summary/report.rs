@@ -2,7 +2,7 @@
 //!
 //! A section is a function here; [`report()`] lists them.
 
-use super::charts;
+use super::{anytime, charts, ratios};
 use crate::analysis::compare::{
     Duel, METHOD, METRICS, Metric, SUCCESS, Scope, describe_not_run, not_run, paired, planners,
     runs_of,
@@ -18,7 +18,10 @@ use formicar::numeric::counted;
 /// # Errors
 /// Scenarios of one name whose maps or vehicles are not the same.
 pub fn report(name: &str, runs: &[Run]) -> Result<Report> {
-    let mut sections = vec![of_planners(runs), charts::spreads(runs)];
+    let mut sections = vec![of_planners(runs)];
+    sections.extend(ratios::ratios(runs));
+    sections.extend(anytime::anytime(runs));
+    sections.push(charts::spreads(runs));
     sections.extend(charts::convergence(runs));
     sections.extend(beside_the_first(runs)?);
     sections.push(of_scenarios(runs));
