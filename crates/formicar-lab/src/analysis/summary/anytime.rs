@@ -30,7 +30,8 @@ pub(super) fn anytime(runs: &[Run]) -> Option<Section> {
     if courses.is_empty() {
         return None;
     }
-    let tables = [("median", 0.5), ("p90", 0.9)].map(|(word, p)| table(word, p, &courses));
+    let tables = [("median", 0.5), ("p90", 0.9), ("largest", 1.0)];
+    let tables = tables.map(|(word, p)| table(word, p, &courses));
     let mut blocks = vec![Block::Trends(curves(&courses, least.len()))];
     blocks.extend(tables.map(Block::Table));
     Some(Section::new("Cost over time", blocks))

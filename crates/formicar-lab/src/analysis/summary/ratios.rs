@@ -165,19 +165,21 @@ fn times(motion: &str, first: &Side, others: &[Side]) -> Table {
         "largest",
         "query ms",
         "cold ratio",
+        "by ms",
         "warm ratio",
+        "by ms",
     ];
     let mut table = Table::new(&format!("times {motion}"), &heading).captioned(&format!(
         "{}: processor time where it is told, medians over seeds, then over scenarios; a run \
          without a valid path takes forever. Ratios: the first path of `{}`, cold (a planner that \
          has just been made) and warm, over the other's, on the scenarios that the other solves: \
-         median (largest) [on how many `{}` is slower].",
+         median (largest) [on how many `{}` is slower], and by how many milliseconds at most.",
         words(motion),
         first.planner,
         first.planner
     ));
     for (name, of) in [(" cold", cold_first_s as Of), ("", first_s as Of)] {
-        let fields = vec![Field::Number(None, 0); 2];
+        let fields = vec![Field::Number(None, 0); 4];
         table.row(times_row(
             first,
             &format!("{}{name}", first.planner),
@@ -186,19 +188,26 @@ fn times(motion: &str, first: &Side, others: &[Side]) -> Table {
         ));
     }
     for other in others {
-        let ratios = [cold_first_s as Of, first_s as Of].map(|of| {
-            let ratio = |place: &Place| {
-                let theirs_s = other.time(place, first_s).filter(|s| s.is_finite())?;
-                Some(first.time(place, of).unwrap_or(f64::INFINITY) / theirs_s)
-            };
-            spread(
-                &other.by_place.keys().filter_map(ratio).collect::<Vec<_>>(),
-                2,
-            )
-        });
-        table.row(times_row(other, other.planner, first_s, ratios.to_vec()));
+        let beside = [cold_first_s as Of, first_s as Of].map(|of| beside(first, of, other));
+        table.row(times_row(other, other.planner, first_s, beside.concat()));
     }
     table
+}
+
+/// The first planner's times over the other's, and by how much they are longer at most.
+fn beside(first: &Side, of: Of, other: &Side) -> Vec<Field> {
+    let pair = |place: &Place| {
+        let theirs_s = other.time(place, first_s).filter(|s| s.is_finite())?;
+        Some([first.time(place, of).unwrap_or(f64::INFINITY), theirs_s])
+    };
+    let pairs: Vec<[f64; 2]> = other.by_place.keys().filter_map(pair).collect();
+    let ratios: Vec<f64> = pairs
+        .iter()
+        .map(|[ours_s, theirs_s]| ours_s / theirs_s)
+        .collect();
+    let excess = pairs.iter().map(|[ours_s, theirs_s]| ours_s - theirs_s);
+    let most_s = excess.reduce(f64::max).filter(|s| *s > 0.0);
+    vec![spread(&ratios, 2), ms(most_s)]
 }
 
 fn times_row(side: &Side, name: &str, of: Of, ratios: Vec<Field>) -> Vec<Field> {
@@ -375,8 +384,8 @@ mod tests {
         ];
         let text = text(&runs);
         for row in [
-            "| ours cold | 2/2 | 2/2 | 2.0 | 19.0 | 27.8 | 30.0 | - | - | - |",
-            "| theirs | 2/2 | 2/2 | - | 10.0 | 10.0 | 10.0 | - | 1.90 (3.00) [1/2] | 0.15 (0.20) [0/2] |",
+            "| ours cold | 2/2 | 2/2 | 2.0 | 19.0 | 27.8 | 30.0 | - | - | - | - | - |",
+            "| theirs | 2/2 | 2/2 | - | 10.0 | 10.0 | 10.0 | - | 1.90 (3.00) [1/2] | 20.0 | 0.15 (0.20) [0/2] | - |",
             "| theirs | 1.800 (2.200) [2/2] | 1.400 | - | - | 4.0 | - |",
             // The one that reverses 6 m is shorter, but another question.
             "| theirs | 0.875 (1.250) [1/2] | 0.500 (0.500) [0/1] |",
