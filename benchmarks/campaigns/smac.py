@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Nav2's Smac beside the runs of a campaign.
 
-    python3 benchmarks/campaigns/smac.py ../shared/data/car/peers-one-run.csv results.csv
+    python3 benchmarks/campaigns/smac.py ../shared/data/car/peers-one-run.csv results.csv...
 
 Smac cannot be built here, so its paths are those of an earlier run on another build of formicar:
-lengths, clearances and cusps are set beside those of results.csv, and times are ratios to formicar
+lengths, clearances and cusps are set beside those of the results, and times are ratios to formicar
 within that earlier run. Prints Markdown.
 """
 
@@ -88,9 +88,10 @@ def paths(now: Rows, smac: Rows) -> list[str]:
 
 def main() -> None:
     """Print the table."""
-    if len(sys.argv) != 3:
+    if len(sys.argv) < 3:
         raise SystemExit(__doc__)
-    earlier, today = rows_of(sys.argv[1]), rows_of(sys.argv[2])
+    earlier = rows_of(sys.argv[1])
+    today = [row for path in sys.argv[2:] for row in rows_of(path)]
     print(
         "| motion | Smac solved / valid | formicar's first path over Smac's, cold | warm "
         "| length over Smac's | clearance m, ours / Smac's | Smac over 2 cm better "

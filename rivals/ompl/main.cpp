@@ -36,6 +36,8 @@ constexpr char USAGE[] = "usage: ompl_rival rrtconnect|restarts|bitstar|rrtstar 
 constexpr double SPACING_M = 0.05;
 /// A path is told where it is shorter than the one before by this share.
 constexpr double LEAST_GAIN = 1e-3;
+/// The wall time of a limit of processor time, on a busy machine.
+constexpr double MAX_WALL = 30;
 
 double processor_s() {
     timespec time{};
@@ -87,6 +89,11 @@ public:
     json answer() {
         json told{{"map_setup_s", setup_wall_s_}, {"map_setup_cpu_s", setup_processor_s_}};
         for (const auto &[name, state] : {std::pair{"start", start_->get()}, {"goal", goal_->get()}}) {
+            if (!information_->satisfiesBounds(state)) {
+                told["status"] = "refused";
+                told["reason"] = std::string("the ") + name + " lies off the map";
+                return told;
+            }
             if (!information_->isValid(state)) {
                 told["status"] = "refused";
                 told["reason"] = std::string("the ") + name + " is nearer to an obstacle than the slack";
@@ -149,8 +156,11 @@ private:
 
     double left_s() const { return limit_s_ - clock_.processor(); }
 
+    /// A planner that sleeps uses no processor time, and would never end by that alone.
+    bool is_over() const { return left_s() <= 0 || clock_.wall() > MAX_WALL * limit_s_; }
+
     ob::PlannerTerminationCondition in_time() const {
-        return ob::PlannerTerminationCondition([this] { return left_s() <= 0; });
+        return ob::PlannerTerminationCondition([this] { return is_over(); });
     }
 
     /// Notes a path that is shorter than those before.
@@ -176,7 +186,7 @@ private:
             note(path);
             og::PathSimplifier(information_).simplify(path, in_time());
             note(path);
-        } while (is_restarted && left_s() > 0);
+        } while (is_restarted && !is_over());
     }
 
     /// A planner that goes on until its time is over.

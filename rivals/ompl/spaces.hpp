@@ -21,7 +21,9 @@ inline Pose pose_of(const ob::State *state) {
 inline void set_pose(ob::State *state, const Pose &pose) {
     auto *se2 = state->as<ob::SE2StateSpace::StateType>();
     se2->setXY(pose.x, pose.y);
-    se2->setYaw(std::remainder(pose.heading, 2 * PI));
+    // OMPL's headings are below pi.
+    const double heading = std::remainder(pose.heading, 2 * PI);
+    se2->setYaw(heading < PI ? heading : -PI);
 }
 
 /// The curve that a space drives between two states.

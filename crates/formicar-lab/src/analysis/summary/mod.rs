@@ -5,6 +5,7 @@ mod anytime;
 mod by_source;
 mod charts;
 mod ompl;
+mod places;
 mod ratios;
 mod report;
 mod sheets;

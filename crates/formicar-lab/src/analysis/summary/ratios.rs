@@ -1,7 +1,7 @@
 //! Planners beside the first one, scenario by scenario within one run: times, costs and lengths as
 //! ratios.
 
-use super::report::places;
+use super::places::places;
 use crate::analysis::compare::{planners, runs_of};
 use crate::analysis::statistics::{distinct, median, quantile_or_forever};
 use crate::report::{Block, Field, Section, Table};
@@ -335,12 +335,12 @@ mod tests {
     use crate::report::{Report, markdown};
     use serde_json::{Value, json};
 
-    fn run(planner: &str, scenario: &str, values: Value) -> Run {
+    fn run(planner: &str, scenario: &str, values: &Value) -> Run {
         let mut run = Run::default();
         let row =
             json!({"scenario": scenario, "planner": planner, "status": "found", "valid": true});
         run.record.fill(&row).unwrap();
-        run.record.fill(&values).unwrap();
+        run.record.fill(values).unwrap();
         run.origin.motion = "reverse".to_owned();
         run
     }
@@ -349,7 +349,7 @@ mod tests {
         run(
             "ours",
             scenario,
-            json!({
+            &json!({
                 "cold_first_cpu_s": cold_s, "first_feasible_cpu_s": warm_s, "first_feasible_s": 9.0,
                 "length_m": 10.0, "cost_m": 10.0, "reverse_length_m": 0.0, "map_setup_cpu_s": 0.002,
             }),
@@ -360,7 +360,7 @@ mod tests {
         run(
             "theirs",
             scenario,
-            json!({
+            &json!({
                 "first_feasible_cpu_s": first_s, "length_m": length_m, "cost_m": length_m + reverse_m,
                 "reverse_length_m": reverse_m,
             }),

@@ -2,12 +2,13 @@
 //!
 //! A section is a function here; [`report()`] lists them.
 
+use super::places::places;
 use super::{anytime, charts, ratios};
 use crate::analysis::compare::{
     Duel, METHOD, METRICS, Metric, SUCCESS, Scope, describe_not_run, not_run, paired, planners,
     runs_of,
 };
-use crate::analysis::statistics::{distinct, quartiles};
+use crate::analysis::statistics::quartiles;
 use crate::report::{Field, Report, Section, Table};
 use crate::run::Run;
 use anyhow::Result;
@@ -131,11 +132,6 @@ fn of_scenarios(runs: &[Run]) -> Section {
         }
     }
     Section::of_table("Scenarios", table)
-}
-
-/// All places in the order in which they come.
-pub(super) fn places(runs: &[Run]) -> Vec<[&str; 3]> {
-    distinct(runs.iter().map(Run::place))
 }
 
 /// All metrics but success.
