@@ -4,6 +4,7 @@
 #include "curves.hpp"
 
 #include <ompl/base/MotionValidator.h>
+#include <ompl/base/ScopedState.h>
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/StateValidityChecker.h>
 #include <ompl/base/spaces/ReedsSheppStateSpace.h>
