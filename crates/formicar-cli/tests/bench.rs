@@ -132,7 +132,7 @@ fn a_killed_bench_goes_on_where_it_stopped() {
     assert_eq!(room.read("out/results.csv"), again);
     room.write("out/results.csv", again.replace(",found,", ",found\n,"));
     fs::remove_file(room.path("out/results.sqlite")).unwrap();
-    bench(&room, &[]).assert_refused(&["results.csv", "no row of 54 values"]);
+    bench(&room, &[]).assert_refused(&["results.csv", "no row of 58 values"]);
 }
 
 #[test]
