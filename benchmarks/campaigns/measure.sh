@@ -40,7 +40,9 @@ for motion in reverse forward; do
     page $motion-best-known "$kept/peers-$motion.sqlite" "$kept/patient-$motion.sqlite"
     cp "$kept/page-$motion/summary.md" "$peers/$motion.md"
     sed -n '/^## Cost over time/,/^## How values/p' "$kept/page-$motion-best-known/summary.md" |
-        sed -e '$d' -e 's/^##/#/' >"$peers/$motion-cost-over-time.md"
+        sed -e '$d' -e 's/^##/#/' \
+            -e "s|^Figure, in .index.html.: |![Cost over time]($motion-cost-over-time.svg)\n\n|" \
+            >"$peers/$motion-cost-over-time.md"
     python3 benchmarks/campaigns/picture.py "$kept/page-$motion-best-known/index.html" \
         "$peers/$motion-cost-over-time.svg"
 done
