@@ -35,6 +35,7 @@ pub const CLI: &[&str] = &[
     "optional",
     "files",
     "values",
+    "bag",
     "output",
     "settings",
     "scene",
@@ -86,6 +87,21 @@ pub const MAPPING: &[&str] = &[
     "mapper",
     "session",
     "report",
+];
+
+/// Bags of ROS 2.
+pub const RECORD: &[&str] = &[
+    "messages",
+    "cdr",
+    "error",
+    "foreign",
+    "qos",
+    "writer",
+    "bag",
+    "frames",
+    "grid",
+    "log",
+    "recording",
 ];
 
 /// The studio.
