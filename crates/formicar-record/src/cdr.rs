@@ -34,6 +34,12 @@ pub enum CdrError {
         /// Second byte.
         second: u8,
     },
+    /// A message that was packed by itself.
+    #[error(
+        "its bytes are packed by zstd; packed chunks are read, packed messages are not; hint: pip \
+         install rosbags && rosbags-convert --src BAG --dst BAG-plain --dst-storage mcap"
+    )]
+    Packed,
     /// Contents that do not have the form of the type.
     #[error("{reason} after {n_bytes} bytes in all")]
     Contents {
@@ -78,6 +84,7 @@ pub fn decode<M: DeserializeOwned>(bytes: &[u8]) -> Result<M, CdrError> {
     match [first, second] {
         [0, 0] => body_of::<M, BigEndian>(body),
         [0, 1] => body_of::<M, LittleEndian>(body),
+        [0x28, 0xb5] => Err(CdrError::Packed),
         _ => Err(CdrError::Encapsulation { first, second }),
     }
 }
@@ -152,6 +159,7 @@ mod tests {
         assert!(message(&[0, 1]).contains("2 bytes"));
         assert!(message(&[0, 7, 0, 0, 1, 2]).contains("encapsulation 00 07"));
         assert!(message(&HEADER[..18]).contains("end of input"));
+        assert!(message(&[0x28, 0xb5, 0x2f, 0xfd, 0]).contains("packed by zstd"));
         let long = [&HEADER[..], &[0; 8]].concat();
         assert!(message(&long).contains("8 bytes follow"));
         // A sequence that claims 4 billion cells, and has none.

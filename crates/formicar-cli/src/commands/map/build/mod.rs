@@ -64,7 +64,7 @@ fn built(args: &BuildArgs, outputs: &Outputs) -> Result<Option<(MapReport, Built
         begin = Instant::now();
     };
     let logs = args.logs.iter().map(|path| {
-        let log = read_log(path)?;
+        let log = read_log(path, &args.bag)?;
         Ok(if args.no_odometry {
             log.without_odometry()
         } else {
