@@ -49,7 +49,7 @@ pub fn vehicle(name: &str) -> Result<Vehicle> {
 }
 
 /// What a log takes out of a bag, where the bag leaves a choice or a gap: `--scan-topic`,
-/// `--odom-topic` and `--laser-pose`.
+/// `--odom-topic`, `--laser-pose` and `--no-odometry`.
 #[cfg(feature = "mapping")]
 #[derive(Clone, Debug, Default)]
 pub struct BagChoice {
@@ -59,6 +59,8 @@ pub struct BagChoice {
     pub odom_topic: Option<String>,
     /// The laser's pose on the robot.
     pub laser_pose: Option<Pose2>,
+    /// Whether the odometry is left out, and with it the laser's place on the robot.
+    pub no_odometry: bool,
 }
 
 /// A lidar log: a bag of ROS 2, or a file in the format of CARMEN.
@@ -67,10 +69,11 @@ pub struct BagChoice {
 /// What is wrong with the file, or a choice for a log that has none.
 #[cfg(feature = "mapping")]
 pub fn lidar_log(path: &Path, choice: BagChoice) -> Result<Log> {
-    let args = lidar::BagArgs {
+    let args = lidar::LogArgs {
         scan_topic: choice.scan_topic,
         odom_topic: choice.odom_topic,
         laser_pose: choice.laser_pose,
+        no_odometry: choice.no_odometry,
     };
     lidar::log(path, &args)
 }

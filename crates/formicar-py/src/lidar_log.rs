@@ -79,19 +79,21 @@ impl LidarLog {
         })
     }
 
-    /// A log of a file, as the command line reads it.
+    /// A log of a file, as the command line reads it; the topics are those of scans and odometry.
     #[staticmethod]
     fn read(
         path: PathBuf,
-        scan_topic: Option<String>,
-        odom_topic: Option<String>,
+        topics: [Option<String>; 2],
         laser_pose: Option<[f64; 3]>,
+        no_odometry: bool,
         py: Python<'_>,
     ) -> PyResult<Self> {
+        let [scan_topic, odom_topic] = topics;
         let choice = BagChoice {
             scan_topic,
             odom_topic,
             laser_pose: laser_pose.map(pose),
+            no_odometry,
         };
         let read = py.detach(|| reading::lidar_log(&path, choice));
         match read {

@@ -231,6 +231,7 @@ def test_a_bag_of_ros1_is_refused_with_a_command_that_works(
     with pytest.raises(InvalidLog, match="--laser-pose"):
         Log.read("drive")
     check_log(Log.read("drive", laser_pose=MOUNT), room)
+    assert Log.read("drive", use_odometry=False).odometry is None
 
 
 def test_packed_files_and_messages_are_refused(room: Room, tmp_path: Path) -> None:

@@ -85,7 +85,7 @@ impl<R: Read + Seek> Bag<R> {
             source,
             n_bytes,
             topics: Vec::new(),
-            index: index.filter(|index| !index.chunk_indexes.is_empty()),
+            index: index.filter(|i| !i.chunk_indexes.is_empty() && !i.channels.is_empty()),
             warnings: Vec::new(),
         };
         bag.topics = bag.find_topics()?;

@@ -17,6 +17,8 @@ pub struct LogOptions {
     pub odometry_topic: Option<String>,
     /// The laser's pose on the robot, in place of the one of the transforms: meters, radians.
     pub laser_pose: Option<Pose2>,
+    /// Leaves the odometry out, and with it the laser's place on the robot.
+    pub no_odometry: bool,
 }
 
 /// The largest angle between a laser's axis and the vertical, degrees.
@@ -40,7 +42,7 @@ pub fn read_log<R: Read + Seek>(
     options: &LogOptions,
 ) -> Result<Log, RecordError> {
     let scan_topic = bag.topic_of::<ScanMessage>(options.scan_topic.as_deref(), "--scan-topic")?;
-    let odometry_topic = odometry_topic(bag, options.odometry_topic.as_deref())?;
+    let odometry_topic = odometry_topic(bag, options)?;
     let contents = Contents::read(bag, &scan_topic, odometry_topic.as_deref())?;
     let (scans, frame) = contents.scans(&scan_topic)?;
     let mut log = Log {
@@ -51,11 +53,14 @@ pub fn read_log<R: Read + Seek>(
         let words = "the scans have no times in their headers: those of the recording are used";
         log.warnings.push(words.to_owned());
     }
-    if let Some(drive) = contents.drive(&frame, options) {
+    let drive = contents.drive(&frame, options);
+    if let Some(drive) = drive.filter(|_| !options.no_odometry) {
         drive.fill(&mut log, scans, &frame)?;
     } else {
-        let words = "the bag has no odometry: motion comes from the scans alone";
-        log.warnings.push(words.to_owned());
+        if !options.no_odometry {
+            let words = "the bag has no odometry: motion comes from the scans alone";
+            log.warnings.push(words.to_owned());
+        }
         let mount = contents.mount_without_odometry(&frame, options);
         let is_flipped = Mount::new(mount, &frame)?.is_flipped;
         let scans = scans.into_iter();
@@ -68,10 +73,11 @@ pub fn read_log<R: Read + Seek>(
 /// The topic of the odometry; none where transforms have to do.
 fn odometry_topic<R: Read + Seek>(
     bag: &Bag<R>,
-    asked: Option<&str>,
+    options: &LogOptions,
 ) -> Result<Option<String>, RecordError> {
     let transforms = bag.topics_of::<TFMessage>();
-    match asked {
+    match options.odometry_topic.as_deref() {
+        _ if options.no_odometry => Ok(None),
         Some(asked) if transforms.contains(&asked) => Ok(None),
         None if bag.topics_of::<Odometry>().is_empty() => Ok(None),
         asked => bag.topic_of::<Odometry>(asked, "--odom-topic").map(Some),
@@ -341,7 +347,8 @@ impl Drive<'_> {
             from: frame.to_owned(),
             to: self.base.clone(),
             reason,
-            hint: "--laser-pose X,Y,H says where the laser is on the robot",
+            hint: "--laser-pose X,Y,H says where the laser is on the robot, and --no-odometry \
+                   needs no such place",
         })?;
         Mount::new(pose, frame)
     }
@@ -547,6 +554,12 @@ mod tests {
             odometry(writer, 1, 0.0);
             writer.write("/scan", SECOND, &scan(1)).unwrap();
         };
+        let without = LogOptions {
+            no_odometry: true,
+            ..LogOptions::default()
+        };
+        let log = read(alone, &without).unwrap();
+        assert!(log.odometry.is_none() && log.warnings.is_empty());
         let error = read(alone, &LogOptions::default()).unwrap_err().to_string();
         assert!(
             error.contains("--laser-pose") && error.contains("\"base_link\""),

@@ -2,7 +2,7 @@
 #![allow(clippy::doc_markdown, reason = "clap prints these words as they stand")]
 
 use crate::failure::{Ending, Failure, note};
-use crate::lidar::{BagArgs, Interrupt, MapToSearch, ScanBar, Trajectory, read_log};
+use crate::lidar::{Interrupt, LogArgs, MapToSearch, ScanBar, Trajectory, read_log};
 use crate::values;
 use anyhow::{Result, anyhow};
 use clap::{Args, ValueHint};
@@ -36,11 +36,7 @@ pub(crate) struct LocateArgs {
     pub(super) global: bool,
 
     #[command(flatten)]
-    pub(super) bag: BagArgs,
-
-    /// Use the scans alone.
-    #[arg(long)]
-    pub(super) no_odometry: bool,
+    pub(super) how: LogArgs,
 
     /// Write the pose at every scan: .csv with quality and standard deviations, or .tum.
     #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
@@ -50,12 +46,7 @@ pub(crate) struct LocateArgs {
 /// Carries out `locate`.
 pub(crate) fn run(args: &LocateArgs, out: &mut impl Write) -> Result<Ending, Failure> {
     let trajectory = Trajectory::of(args.trajectory.as_deref())?;
-    let log = read_log(&args.log, &args.bag)?;
-    let log = if args.no_odometry {
-        log.without_odometry()
-    } else {
-        log
-    };
+    let log = read_log(&args.log, &args.how)?;
     let map = MapToSearch::read(&args.map)?;
     let interrupt = Interrupt::watch();
     let found = located(&map, &log, args.start, &interrupt)?;

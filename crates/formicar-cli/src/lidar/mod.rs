@@ -1,11 +1,11 @@
 //! What commands on lidar logs share: reading logs and maps, trajectories, progress, Ctrl-C.
 
-mod bag_args;
+mod log_args;
 mod map;
 mod progress;
 mod trajectory;
 
-pub(crate) use bag_args::BagArgs;
+pub(crate) use log_args::LogArgs;
 pub(crate) use map::MapToSearch;
 pub(crate) use progress::{Interrupt, ScanBar};
 pub(crate) use trajectory::Trajectory;
@@ -19,7 +19,7 @@ use formicar_mapping::log::carmen::parse_carmen;
 use std::path::Path;
 
 /// Reads a log by its name and contents; its warnings go to stderr.
-pub(crate) fn read_log(path: &Path, args: &BagArgs) -> Result<Log> {
+pub(crate) fn read_log(path: &Path, args: &LogArgs) -> Result<Log> {
     let log = log(path, args)?;
     for warning in &log.warnings {
         note(&format!("note: {}: {warning}", path.display()));
@@ -28,7 +28,7 @@ pub(crate) fn read_log(path: &Path, args: &BagArgs) -> Result<Log> {
 }
 
 /// A log by its name and contents: a bag of ROS 2, or a file in the format of CARMEN.
-pub(crate) fn log(path: &Path, args: &BagArgs) -> Result<Log> {
+pub(crate) fn log(path: &Path, args: &LogArgs) -> Result<Log> {
     if bag::is_bag(path) {
         #[cfg(feature = "record")]
         return bag::read_log(path, &args.options());
@@ -42,5 +42,10 @@ pub(crate) fn log(path: &Path, args: &BagArgs) -> Result<Log> {
         );
     }
     let bytes = files::read_bytes(path)?;
-    parse_carmen(&bytes).with_context(|| path.display().to_string())
+    let log = parse_carmen(&bytes).with_context(|| path.display().to_string())?;
+    Ok(if args.no_odometry {
+        log.without_odometry()
+    } else {
+        log
+    })
 }

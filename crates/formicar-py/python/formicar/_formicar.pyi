@@ -279,9 +279,9 @@ class LidarLog:
     @staticmethod
     def read(
         path: str,
-        scan_topic: str | None,
-        odom_topic: str | None,
+        topics: list[str | None],
         laser_pose: _Pose | None,
+        no_odometry: bool,
         /,
     ) -> LidarLog: ...
     def without_odometry(self) -> LidarLog: ...

@@ -92,6 +92,7 @@ class Log:
         scan_topic: str | None = None,
         odom_topic: str | None = None,
         laser_pose: tuple[float, float, float] | None = None,
+        use_odometry: bool = True,
     ) -> Log:
         """Read a log: a bag of ROS 2 in MCAP (``.mcap``, or its folder), or a CARMEN file.
 
@@ -107,6 +108,8 @@ class Log:
         laser_pose : (float, float, float), optional
             Pose of the laser on the robot, meters and radians, in place of the one in the bag's
             transforms.
+        use_odometry : bool, optional
+            False takes the scans alone: neither odometry nor the pose of the laser is needed then.
 
         Returns
         -------
@@ -122,7 +125,11 @@ class Log:
             No such file.
         """
         pose = None if laser_pose is None else pose_of(laser_pose, "laser_pose", InvalidLog)
-        return cls._of(_formicar.LidarLog.read(os.fspath(path), scan_topic, odom_topic, pose))
+        return cls._of(
+            _formicar.LidarLog.read(
+                os.fspath(path), [scan_topic, odom_topic], pose, not use_odometry
+            )
+        )
 
     def without_odometry(self) -> Log:
         """Return the log without its odometry."""

@@ -4,7 +4,7 @@
 use crate::commands::locate;
 use crate::failure::{Ending, Failure};
 use crate::files;
-use crate::lidar::{BagArgs, Interrupt, MapToSearch, read_log};
+use crate::lidar::{Interrupt, LogArgs, MapToSearch, read_log};
 use crate::output::print_json;
 use anyhow::{Context, Result};
 use clap::{Args, ValueHint};
@@ -49,7 +49,7 @@ pub(crate) struct EvaluateArgs {
     start: Option<Pose2>,
 
     #[command(flatten)]
-    bag: BagArgs,
+    how: LogArgs,
 
     /// Print one JSON object.
     #[arg(long)]
@@ -119,7 +119,7 @@ fn evaluate(args: &EvaluateArgs) -> Result<Evaluation> {
         parse_relations(&text).with_context(|| path.display().to_string())
     });
     let relations = relations.transpose()?;
-    let log = read_log(&args.log, &args.bag)?;
+    let log = read_log(&args.log, &args.how)?;
     let map = MapToSearch::read(&args.map)?;
     let found = locate::located(&map, &log, args.start, &Interrupt::watch())?;
     let poses: Vec<Pose2> = found.iter().map(|located| located.pose).collect();

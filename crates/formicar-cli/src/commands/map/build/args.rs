@@ -1,7 +1,7 @@
 //! Flags of `map build`.
 #![allow(clippy::doc_markdown, reason = "clap prints these words as they stand")]
 
-use crate::lidar::BagArgs;
+use crate::lidar::LogArgs;
 use crate::values;
 use clap::{Args, ValueEnum, ValueHint};
 use formicar::Pose2;
@@ -35,11 +35,7 @@ pub(crate) struct BuildArgs {
     pub(super) session: Option<PathBuf>,
 
     #[command(flatten)]
-    pub(super) bag: BagArgs,
-
-    /// Use the scans alone.
-    #[arg(long)]
-    pub(super) no_odometry: bool,
+    pub(super) how: LogArgs,
 
     /// Side of a cell, meters: 0.05 by default.
     #[arg(long, value_name = "M", value_parser = values::positive)]

@@ -1,13 +1,17 @@
-//! Flags that choose what a log takes out of a bag.
+//! Flags that choose what is taken out of a log.
 #![allow(clippy::doc_markdown, reason = "clap prints these words as they stand")]
 
 use crate::values;
 use clap::Args;
 use formicar::Pose2;
 
-/// Flags for logs that are bags of ROS 2.
+/// Flags for logs; most of them for bags of ROS 2.
 #[derive(Args, Clone, Debug, Default)]
-pub(crate) struct BagArgs {
+pub(crate) struct LogArgs {
+    /// Use the scans alone.
+    #[arg(long)]
+    pub(crate) no_odometry: bool,
+
     /// Topic of the scans (sensor_msgs/LaserScan), where a bag has several.
     #[arg(long, value_name = "TOPIC")]
     pub(crate) scan_topic: Option<String>,
@@ -22,8 +26,8 @@ pub(crate) struct BagArgs {
     pub(crate) laser_pose: Option<Pose2>,
 }
 
-impl BagArgs {
-    /// The first of the flags that is given.
+impl LogArgs {
+    /// The first flag for bags that is given.
     pub(super) fn first_flag(&self) -> Option<&'static str> {
         let flags = [
             ("--scan-topic", self.scan_topic.is_some()),
@@ -42,6 +46,7 @@ impl BagArgs {
             scan_topic: self.scan_topic.clone(),
             odometry_topic: self.odom_topic.clone(),
             laser_pose: self.laser_pose,
+            no_odometry: self.no_odometry,
         }
     }
 }
