@@ -95,6 +95,8 @@ pub const RECORD: &[&str] = &[
     "cdr",
     "error",
     "foreign",
+    "topic",
+    "walk",
     "qos",
     "writer",
     "bag",

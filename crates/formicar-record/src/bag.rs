@@ -1,57 +1,18 @@
 //! Bags to read: topics, and messages in the order of the file.
 
-use crate::cdr;
 use crate::error::RecordError;
 use crate::foreign::{N_MAGIC, check_kind};
 use crate::messages::Message;
-use mcap::sans_io::indexed_reader::{
-    IndexedReadEvent, IndexedReader, IndexedReaderOptions, ReadOrder,
-};
-use mcap::sans_io::linear_reader::LinearReaderOptions;
-use mcap::sans_io::summary_reader::{SummaryReadEvent, SummaryReader, SummaryReaderOptions};
-use mcap::{McapError, Summary};
-use std::collections::BTreeSet;
+use crate::topic::{RawMessage, Topic};
+use crate::walk::{Channels, Next, Visit, next_record, parsed};
+use mcap::records::{ChunkIndex, Record, op};
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{BufReader, Read, Seek, SeekFrom};
 
-/// The longest record, packed or not, bytes: what a hostile file can make a reader allocate.
-const MAX_RECORD: usize = 1 << 28;
-
-/// A topic of a bag.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Topic {
-    /// Its name.
-    pub name: String,
-    /// The type of its messages, for instance `sensor_msgs/msg/LaserScan`.
-    pub type_name: String,
-    /// The encoding of its messages; `cdr` is read.
-    pub encoding: String,
-}
-
-/// A message as it stands in the file.
-#[derive(Clone, Copy, Debug)]
-pub struct RawMessage<'a> {
-    /// Its topic.
-    pub topic: &'a str,
-    /// Time at which it was recorded, nanoseconds.
-    pub log_time_ns: u64,
-    /// Its bytes, with encapsulation.
-    pub data: &'a [u8],
-}
-
-impl RawMessage<'_> {
-    /// The message as a value.
-    ///
-    /// # Errors
-    /// Bytes that do not have the form of the type.
-    pub fn decode<M: Message>(&self) -> Result<M, RecordError> {
-        cdr::decode(self.data).map_err(|source| RecordError::Message {
-            topic: self.topic.to_owned(),
-            time_s: 1e-9 * self.log_time_ns as f64,
-            type_name: M::TYPE,
-            source,
-        })
-    }
-}
+/// Bytes of the magic number at both ends of a file.
+const N_MARK: u64 = 8;
+/// Bytes of a footer with the magic number behind it.
+const N_FOOTER: u64 = 9 + 20 + N_MARK;
 
 /// A bag in MCAP.
 ///
@@ -60,11 +21,21 @@ impl RawMessage<'_> {
 /// chunk, at most 256 MiB.
 #[derive(Debug)]
 pub struct Bag<R> {
-    source: R,
+    source: BufReader<R>,
     n_bytes: u64,
     topics: Vec<Topic>,
-    index: Option<Summary>,
+    index: Option<Index>,
     warnings: Vec<String>,
+}
+
+/// What stands at the end of a file about the chunks before it.
+#[derive(Debug, Default)]
+struct Index {
+    channels: Channels,
+    /// In the order of the file.
+    chunks: Vec<ChunkIndex>,
+    /// Messages on each channel.
+    counts: Option<BTreeMap<u16, u64>>,
 }
 
 impl<R: Read + Seek> Bag<R> {
@@ -73,19 +44,20 @@ impl<R: Read + Seek> Bag<R> {
     /// # Errors
     /// A file of another kind, with the command that converts it; a damaged file.
     pub fn open(name: &str, mut source: R) -> Result<Self, RecordError> {
-        let io = |error: std::io::Error| RecordError::damaged(&error);
-        let n_bytes = source.seek(SeekFrom::End(0)).map_err(io)?;
-        source.seek(SeekFrom::Start(0)).map_err(io)?;
+        let n_bytes = source.seek(SeekFrom::End(0))?;
+        source.seek(SeekFrom::Start(0))?;
         let mut first_bytes = Vec::new();
         let magic = source.by_ref().take(N_MAGIC as u64);
-        { magic }.read_to_end(&mut first_bytes).map_err(io)?;
+        { magic }.read_to_end(&mut first_bytes)?;
         check_kind(name, &first_bytes)?;
-        let index = summary(&mut source, n_bytes).unwrap_or_default();
+        let mut source = BufReader::new(source);
+        // A damaged index is no index: the messages are there all the same.
+        let index = index(&mut source, n_bytes).unwrap_or_default();
         let mut bag = Self {
             source,
             n_bytes,
             topics: Vec::new(),
-            index: index.filter(|i| !i.chunk_indexes.is_empty() && !i.channels.is_empty()),
+            index,
             warnings: Vec::new(),
         };
         bag.topics = bag.find_topics()?;
@@ -193,96 +165,82 @@ impl<R: Read + Seek> Bag<R> {
                 hint: "record with `ros2 bag record -s mcap`".to_owned(),
             });
         }
-        if self.index.is_some() {
-            self.visit_indexed(topics, &mut visit)
-        } else {
-            self.visit_all(|topic, message| {
-                if topics.contains(&topic.name.as_str()) {
-                    visit(message)
-                } else {
-                    Ok(())
-                }
-            })
+        let mut wanted = |topic: &Topic, message: RawMessage<'_>| {
+            if topics.contains(&topic.name.as_str()) {
+                visit(message)
+            } else {
+                Ok(())
+            }
+        };
+        if let Some(index) = self.index.take() {
+            let visited = self.visit_chunks(&index, topics, &mut wanted);
+            self.index = Some(index);
+            return visited;
         }
+        self.visit_all(&mut wanted)
     }
 
-    fn visit_indexed(
+    /// Visits the messages of the chunks that hold some topics.
+    fn visit_chunks(
         &mut self,
+        index: &Index,
         topics: &[&str],
-        visit: &mut dyn FnMut(RawMessage<'_>) -> Result<(), RecordError>,
+        visit: &mut Visit<'_>,
     ) -> Result<(), RecordError> {
-        let Some(index) = &self.index else {
-            return Ok(());
-        };
-        let has_one = index.channels.values();
-        if !{ has_one }.any(|channel| topics.contains(&channel.topic.as_str())) {
-            return Ok(());
-        }
-        let options = IndexedReaderOptions::new()
-            .with_order(ReadOrder::File)
-            .with_record_length_limit(MAX_RECORD)
-            .include_topics(topics.iter().copied());
-        let damaged = |error: McapError| RecordError::damaged(&error);
-        let mut reader = IndexedReader::new_with_options(index, options).map_err(damaged)?;
-        let mut chunk = Vec::new();
-        while let Some(event) = reader.next_event() {
-            match event.map_err(damaged)? {
-                IndexedReadEvent::ReadChunkRequest { offset, length } => {
-                    read_at(&mut self.source, self.n_bytes, (offset, length), &mut chunk)?;
-                    let inserted = reader.insert_chunk_record_data(offset, &chunk);
-                    inserted.map_err(damaged)?;
-                }
-                IndexedReadEvent::Message { header, data } => {
-                    let Some(channel) = index.channels.get(&header.channel_id) else {
-                        continue;
-                    };
-                    visit(RawMessage {
-                        topic: &channel.topic,
-                        log_time_ns: header.log_time,
-                        data,
-                    })?;
-                }
+        let channels = index.channels.topics().iter();
+        let channels = channels.filter(|(_, topic)| topics.contains(&topic.name.as_str()));
+        let channels: BTreeSet<u16> = channels.map(|(id, _)| *id).collect();
+        let mut known = index.channels.clone();
+        let mut body = Vec::new();
+        for chunk in &index.chunks {
+            let mut ids = chunk.message_index_offsets.keys();
+            // Without an index of its messages, a chunk may hold any.
+            if ids.len() > 0 && !ids.any(|id| channels.contains(id)) {
+                continue;
             }
+            let mut at = chunk.chunk_start_offset;
+            let next = next_record(&mut self.source, &mut at, self.n_bytes, &mut body)?;
+            let Next::Record(op::CHUNK) = next else {
+                return Err(RecordError::Damaged {
+                    reason: format!(
+                        "its index names a chunk at byte {}, where there is none",
+                        chunk.chunk_start_offset
+                    ),
+                });
+            };
+            known.take(op::CHUNK, &body, visit)?;
         }
         Ok(())
     }
 
     /// Visits every message of a file, from its begin on.
-    fn visit_all(
-        &mut self,
-        mut visit: impl FnMut(&Topic, RawMessage<'_>) -> Result<(), RecordError>,
-    ) -> Result<(), RecordError> {
-        let start = self.source.seek(SeekFrom::Start(0));
-        start.map_err(|error| RecordError::damaged(&error))?;
-        let options = LinearReaderOptions::default().with_record_length_limit(MAX_RECORD);
-        let source = BufReader::new(&mut self.source);
-        let messages = mcap::io::MessageReader::new_with_options(source, options);
-        for (n_messages, message) in messages.enumerate() {
-            let message = match message {
-                Ok(message) => message,
-                // What stands before the cut is whole.
-                Err(McapError::UnexpectedEof) if n_messages > 0 => {
-                    let words = format!(
-                        "the bag is cut off within a record, after {n_messages} messages; they are \
-                         used"
-                    );
-                    if !self.warnings.contains(&words) {
-                        self.warnings.push(words);
-                    }
-                    break;
-                }
-                Err(error) => return Err(RecordError::damaged(&error)),
-            };
-            let channel = &message.channel;
-            let topic = topic(channel);
-            visit(
-                &topic,
-                RawMessage {
-                    topic: &channel.topic,
-                    log_time_ns: message.log_time,
-                    data: &message.data,
-                },
-            )?;
+    fn visit_all(&mut self, visit: &mut Visit<'_>) -> Result<(), RecordError> {
+        let mut n_messages = 0_u64;
+        let mut counted = |topic: &Topic, message: RawMessage<'_>| {
+            n_messages += 1;
+            visit(topic, message)
+        };
+        let mut known = Channels::default();
+        let (mut at, mut body) = (N_MARK, Vec::new());
+        let is_cut = loop {
+            match next_record(&mut self.source, &mut at, self.n_bytes, &mut body)? {
+                Next::Record(op::DATA_END) | Next::End => break false,
+                Next::Record(kind) => known.take(kind, &body, &mut counted)?,
+                Next::Passed => {}
+                Next::Cut => break true,
+            }
+        };
+        if is_cut && n_messages == 0 {
+            return Err(RecordError::Damaged {
+                reason: "it is cut off within a record, before its first message".to_owned(),
+            });
+        }
+        // What stands before the cut is whole.
+        let words = format!(
+            "the bag is cut off within a record, after {n_messages} messages; they are used"
+        );
+        if is_cut && !self.warnings.contains(&words) {
+            self.warnings.push(words);
         }
         Ok(())
     }
@@ -291,15 +249,18 @@ impl<R: Read + Seek> Bag<R> {
     fn find_topics(&mut self) -> Result<Vec<Topic>, RecordError> {
         let mut found = BTreeSet::new();
         if let Some(index) = &self.index {
-            let counts = index.stats.as_ref().map(|s| &s.channel_message_counts);
-            for (id, channel) in &index.channels {
-                let is_used = counts.is_none_or(|counts| counts.get(id).is_some_and(|n| *n > 0));
-                if is_used {
-                    found.insert(topic(channel));
-                }
-            }
+            let is_used = |id: &u16| {
+                let counts = index.counts.as_ref();
+                counts.is_none_or(|counts| counts.get(id).is_some_and(|n| *n > 0))
+            };
+            let topics = index.channels.topics().iter();
+            found.extend(
+                topics
+                    .filter(|(id, _)| is_used(id))
+                    .map(|(_, topic)| topic.clone()),
+            );
         } else {
-            self.visit_all(|topic, _| {
+            self.visit_all(&mut |topic, _| {
                 if !found.contains(topic) {
                     found.insert(topic.clone());
                 }
@@ -310,58 +271,50 @@ impl<R: Read + Seek> Bag<R> {
     }
 }
 
-fn topic(channel: &mcap::Channel<'_>) -> Topic {
-    let schema = channel.schema.as_ref();
-    Topic {
-        name: channel.topic.clone(),
-        type_name: schema.map_or_else(String::new, |schema| schema.name.clone()),
-        encoding: channel.message_encoding.clone(),
+/// The index at the end of a file; none where there is none, as in one that was cut off.
+fn index<R: Read + Seek>(source: &mut R, n_bytes: u64) -> Result<Option<Index>, RecordError> {
+    let mut at = n_bytes.saturating_sub(N_FOOTER);
+    let mut body = Vec::new();
+    let end = n_bytes.saturating_sub(N_MARK);
+    let Next::Record(op::FOOTER) = next_record(source, &mut at, end, &mut body)? else {
+        return Ok(None);
+    };
+    let Record::Footer(footer) = parsed(op::FOOTER, &body)? else {
+        return Ok(None);
+    };
+    let mut index = Index::default();
+    at = footer.summary_start;
+    if at < N_MARK {
+        return Ok(None);
     }
-}
-
-/// The summary at the end of a file; none where there is none, as in one that was cut off.
-fn summary<R: Read + Seek>(source: &mut R, n_bytes: u64) -> Result<Option<Summary>, McapError> {
-    let options = SummaryReaderOptions::default()
-        .with_file_size(n_bytes)
-        .with_record_length_limit(MAX_RECORD);
-    source.seek(SeekFrom::Start(0))?;
-    let mut reader = SummaryReader::new_with_options(options);
-    while let Some(event) = reader.next_event() {
-        match event? {
-            SummaryReadEvent::ReadRequest(need) => {
-                let n_read = source.read(reader.insert(need))?;
-                reader.notify_read(n_read);
+    loop {
+        match next_record(source, &mut at, end, &mut body)? {
+            Next::Record(op::CHUNK_INDEX) => {
+                if let Record::ChunkIndex(chunk) = parsed(op::CHUNK_INDEX, &body)? {
+                    index.chunks.push(chunk);
+                }
             }
-            SummaryReadEvent::SeekRequest(to) => reader.notify_seeked(source.seek(to)?),
+            Next::Record(op::STATISTICS) => {
+                if let Record::Statistics(found) = parsed(op::STATISTICS, &body)? {
+                    index.counts = Some(found.channel_message_counts);
+                }
+            }
+            Next::Record(kind @ (op::SCHEMA | op::CHANNEL)) => {
+                index.channels.take(kind, &body, &mut |_, _| Ok(()))?;
+            }
+            Next::Record(op::FOOTER) | Next::Cut | Next::End => break,
+            Next::Record(_) | Next::Passed => {}
         }
     }
-    Ok(reader.finish())
-}
-
-/// Fills a buffer with a part of the file, which must be there.
-fn read_at<R: Read + Seek>(
-    source: &mut R,
-    n_bytes: u64,
-    (offset, length): (u64, usize),
-    buffer: &mut Vec<u8>,
-) -> Result<(), RecordError> {
-    let end = offset.checked_add(length as u64);
-    if length > MAX_RECORD || end.is_none_or(|end| end > n_bytes) {
-        return Err(RecordError::Damaged {
-            reason: format!(
-                "its index names a chunk of {length} bytes at {offset}; the file has {n_bytes} bytes"
-            ),
-        });
-    }
-    let io = |error: std::io::Error| RecordError::damaged(&error);
-    source.seek(SeekFrom::Start(offset)).map_err(io)?;
-    buffer.resize(length, 0);
-    source.read_exact(buffer).map_err(io)
+    index.chunks.sort_by_key(|chunk| chunk.chunk_start_offset);
+    let is_whole = !index.chunks.is_empty() && !index.channels.topics().is_empty();
+    Ok(is_whole.then_some(index))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cdr;
     use crate::messages::{Header, Odometry, PoseStamped, Time};
     use crate::qos::Durability;
     use crate::writer::BagWriter;
@@ -401,7 +354,7 @@ mod tests {
         let schema = writer
             .add_schema(PoseStamped::TYPE, "ros2idl", b"-")
             .unwrap();
-        let metadata = std::collections::BTreeMap::new();
+        let metadata = BTreeMap::new();
         let channel = writer.add_channel(schema, "/goal", "cdr", &metadata);
         let channel_id = channel.unwrap();
         for i in 0..20 {
@@ -478,7 +431,32 @@ mod tests {
         let mut bytes = b"\x89MCAP0\r\n\x05".to_vec();
         bytes.extend((1_u64 << 60).to_le_bytes());
         let error = Bag::open("a.mcap", Cursor::new(bytes)).unwrap_err();
-        assert!(error.to_string().contains("exceeds limit"), "{error}");
+        assert!(
+            error.to_string().contains("cut off within a record"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn a_record_longer_than_its_chunk_is_refused() {
+        let mut bytes = packed(None, true);
+        // The length of the first record in the first chunk, a schema, and no checksum.
+        let chunk = bytes.iter().position(|&byte| byte == 6).unwrap();
+        let (crc, first) = (chunk + 9 + 24, chunk + 9 + 28 + 4 + 8);
+        assert_eq!(bytes[first], 3, "a schema");
+        bytes[crc..crc + 4].fill(0);
+        bytes[first + 1..first + 9].copy_from_slice(&(1_u64 << 20).to_le_bytes());
+        let error = seconds(bytes).unwrap_err().to_string();
+        assert!(error.contains("a chunk ends within a record"), "{error}");
+    }
+
+    #[test]
+    fn a_damaged_chunk_is_noticed() {
+        let mut bytes = packed(None, true);
+        let frame = bytes.windows(4).position(|four| four == b"map\0").unwrap();
+        bytes[frame] = b'n';
+        let error = seconds(bytes).unwrap_err().to_string();
+        assert!(error.contains("checksum"), "{error}");
     }
 
     proptest! {

@@ -143,3 +143,10 @@ impl RecordError {
         Self::Damaged { reason }
     }
 }
+
+/// A source that cannot be read.
+impl From<std::io::Error> for RecordError {
+    fn from(error: std::io::Error) -> Self {
+        Self::damaged(&error)
+    }
+}

@@ -1,9 +1,10 @@
 //! Maps of a bag, and maps as messages.
 
-use crate::bag::{Bag, RawMessage};
+use crate::bag::Bag;
 use crate::error::RecordError;
 use crate::frames::Pose3;
 use crate::messages::{Header, MapMetaData, OccupancyGrid as GridMessage, Time};
+use crate::topic::RawMessage;
 use formicar::map::{GridFrame, MapError, OccupancyGrid};
 use std::io::{Read, Seek};
 

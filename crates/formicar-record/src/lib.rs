@@ -16,13 +16,16 @@ mod log;
 pub mod messages;
 mod qos;
 mod recording;
+mod topic;
+mod walk;
 mod writer;
 
-pub use bag::{Bag, RawMessage, Topic};
+pub use bag::Bag;
 pub use error::RecordError;
 pub use foreign::{check_folder, check_kind};
 pub use grid::{MapAt, from_message, read_map, to_message};
 pub use log::{LogOptions, read_log};
 pub use qos::Durability;
 pub use recording::Recording;
+pub use topic::{RawMessage, Topic};
 pub use writer::BagWriter;

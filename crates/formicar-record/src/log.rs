@@ -112,7 +112,8 @@ impl Contents {
         let mut n_ranges = 0;
         bag.visit(&topics, |message| {
             if message.topic == scan_topic {
-                let scan: ScanMessage = message.decode()?;
+                let mut scan: ScanMessage = message.decode()?;
+                scan.intensities = Vec::new();
                 n_ranges += scan.ranges.len();
                 contents.scans.push((message.log_time_ns, scan));
                 return check_size(n_ranges);
