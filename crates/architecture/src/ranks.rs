@@ -35,6 +35,7 @@ pub const CLI: &[&str] = &[
     "optional",
     "files",
     "values",
+    "bag",
     "output",
     "settings",
     "scene",
@@ -88,6 +89,23 @@ pub const MAPPING: &[&str] = &[
     "report",
 ];
 
+/// Bags of ROS 2.
+pub const RECORD: &[&str] = &[
+    "messages",
+    "cdr",
+    "error",
+    "foreign",
+    "topic",
+    "walk",
+    "qos",
+    "writer",
+    "bag",
+    "frames",
+    "grid",
+    "log",
+    "recording",
+];
+
 /// The studio.
 pub const STUDIO: &[&str] = &[
     "options",
@@ -116,6 +134,9 @@ pub const PYTHON: &[&str] = &[
     "vehicle",
     "cells",
     "grid",
+    "lidar_log",
+    "mapper",
+    "localizer",
     "scenarios",
     "pictures",
     "observe",

@@ -9,7 +9,7 @@ struct Feature {
     commands: &'static [&'static str],
 }
 
-const FEATURES: [Feature; 3] = [
+const FEATURES: [Feature; 4] = [
     Feature {
         name: "lab",
         is_built: cfg!(feature = "lab"),
@@ -28,6 +28,11 @@ const FEATURES: [Feature; 3] = [
         name: "mapping",
         is_built: cfg!(feature = "mapping"),
         commands: &["locate", "build", "evaluate"],
+    },
+    Feature {
+        name: "record",
+        is_built: cfg!(feature = "record"),
+        commands: &["plan --record"],
     },
     Feature {
         name: "studio",

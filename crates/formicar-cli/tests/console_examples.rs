@@ -28,7 +28,7 @@ enum Treatment {
 }
 
 /// The exceptions: what a command contains, its treatment and the reason.
-const EXCEPTIONS: [(&str, Treatment, &str); 25] = [
+const EXCEPTIONS: [(&str, Treatment, &str); 27] = [
     ("cargo ", Treatment::Skip, "what runs this test"),
     (
         "ompl_benchmark_statistics",
@@ -51,6 +51,8 @@ const EXCEPTIONS: [(&str, Treatment, &str); 25] = [
         "lidar logs are data of others",
     ),
     ("locate", Treatment::Flags, "lidar logs are data of others"),
+    ("drive.mcap", Treatment::Flags, "bags are data of others"),
+    ("ros2 ", Treatment::Skip, "ROS"),
     ("cars", Treatment::Flags, "car scenarios are data of others"),
     (
         "CaseN.csv",

@@ -40,7 +40,8 @@ impl Grid {
         }
     }
 
-    fn named(map: OccupancyGrid, name: &str) -> Self {
+    /// A map under a name, whose unknown cells stop a vehicle.
+    pub(crate) fn named(map: OccupancyGrid, name: &str) -> Self {
         let record = MapRecord {
             name: name.to_owned(),
             unknown: "occupied".to_owned(),

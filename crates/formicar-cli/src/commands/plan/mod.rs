@@ -1,6 +1,8 @@
 //! `plan`: from a map and two poses to a certified path.
 
 mod args;
+#[cfg(feature = "record")]
+mod record;
 mod soft_costs;
 mod stdin;
 
@@ -17,6 +19,8 @@ use crate::{settings, summary};
 use anyhow::Result;
 use formicar::geometry::Pose2;
 use formicar::numeric::Seed;
+#[cfg(feature = "record")]
+use formicar::planner::Outcome;
 use formicar::planner::{PlannerName, RequestDocument, ViaRecord};
 use formicar::render::Layout;
 use formicar::scenario::{CurvatureMode, CurvatureRate, StartContact, ViaPoint};
@@ -35,6 +39,8 @@ struct Targets {
     out: Vec<Target<OutKind>>,
     picture: Option<Target<PictureKind>>,
     ants: Option<Target<AntsKind>>,
+    #[cfg(feature = "record")]
+    record: Option<record::RecordTarget>,
 }
 
 /// Carries out `plan`.
@@ -87,6 +93,8 @@ impl Targets {
             out: out.collect::<Result<_>>()?,
             picture: Target::of(args.picture.as_deref(), &picture::KINDS)?,
             ants: Target::of(args.ants.as_deref(), &ants::KINDS)?,
+            #[cfg(feature = "record")]
+            record: record::target(args.record.as_deref())?,
         })
     }
 }
@@ -169,6 +177,13 @@ fn write_files(session: &Session, answered: &Answered, targets: &Targets) -> Res
             Layout::Page,
         );
         target.write(&picture::encode(&image, target.kind)?)?;
+    }
+    #[cfg(feature = "record")]
+    if let Some(target) = &targets.record {
+        match outcome {
+            Outcome::Found(plan) => record::write(&session.scene, &plan.path, target)?,
+            Outcome::NotFound(_) => not_written("no path", target),
+        }
     }
     if let (Some(target), Some(kept)) = (&targets.ants, &session.ants) {
         if kept.frames().is_empty() {
