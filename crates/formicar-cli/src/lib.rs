@@ -15,6 +15,7 @@ mod files;
 #[cfg(feature = "mapping")]
 mod lidar;
 mod mode_args;
+mod motion_files;
 mod optional;
 mod output;
 mod path_file;

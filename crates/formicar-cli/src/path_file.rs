@@ -4,7 +4,9 @@ use crate::files;
 use anyhow::{Context, Result, anyhow};
 use formicar::collision::ObstacleMap;
 use formicar::path::CurvePath;
-use formicar::planner::{CertificateHashes, CertificateNumbers, Escape, PoseRecord, StoredPath};
+use formicar::planner::{
+    CertificateHashes, CertificateNumbers, Escape, MotionRecord, PoseRecord, StoredPath,
+};
 use formicar::scenario::Request;
 use formicar::validation::{
     CURVATURE_TOLERANCE, FOREIGN_CURVATURE_SLACK, ForeignPath, ReadSamples, Report, judge,
@@ -41,6 +43,8 @@ pub(crate) struct PathFile {
     pub(crate) poses: Option<Vec<PoseRecord>>,
     pub(crate) hashes: Option<CertificateHashes>,
     pub(crate) numbers: Option<CertificateNumbers>,
+    /// The drive in time of an answer.
+    pub(crate) motion: Option<MotionRecord>,
 }
 
 /// Reads a path; the name `-` is stdin.
@@ -60,6 +64,7 @@ pub(crate) fn read(path: &Path, vehicle: &Vehicle) -> Result<PathFile> {
             poses: Some(stored.poses),
             hashes: stored.hashes,
             numbers: stored.numbers,
+            motion: stored.motion,
         });
     }
     let ReadSamples {
@@ -82,6 +87,7 @@ pub(crate) fn read(path: &Path, vehicle: &Vehicle) -> Result<PathFile> {
         poses: None,
         hashes: None,
         numbers: None,
+        motion: None,
     })
 }
 
@@ -103,6 +109,11 @@ impl PathFile {
             Source::Segments => CURVATURE_TOLERANCE,
             Source::Poses | Source::Points => FOREIGN_CURVATURE_SLACK,
         }
+    }
+
+    /// The path of an answer, as it is on record.
+    pub(crate) fn recorded_path(&self) -> Option<&CurvePath> {
+        (self.source == Source::Segments).then(|| self.path.path())
     }
 
     /// The path with the judge's findings.

@@ -1,8 +1,10 @@
 //! The summary of an answer for people.
 
+use formicar::motion::MotionStatus;
 use formicar::numeric::counted;
-use formicar::planner::{Answer, KeepOutMapRecord};
+use formicar::planner::{Answer, KeepOutMapRecord, MotionRecord};
 use formicar::progress::Status;
+use formicar::validation::TimedReport;
 use formicar::vehicle::Vehicle;
 use std::io::{self, Write};
 
@@ -31,6 +33,9 @@ pub(crate) fn write(
         goal_of_several(answer),
     )?;
     write_speed_and_steering(answer, out)?;
+    if let Some(motion) = &answer.motion {
+        write_motion(motion, out)?;
+    }
     let closed = &answer.provenance.map.keep_out_maps;
     for closed in closed.iter().map(KeepOutMapRecord::in_words) {
         writeln!(out, "note       {closed}")?;
@@ -69,6 +74,53 @@ fn goal_of_several(answer: &Answer) -> String {
         (Some(goals), Some(i)) => format!("  at goal {} of {}", i + 1, goals.len()),
         _ => String::new(),
     }
+}
+
+/// The drive in time: when it ends, what it waits for, and what the judge has proven.
+fn write_motion(motion: &MotionRecord, out: &mut impl Write) -> io::Result<()> {
+    let (Some(profile), Some(certificate)) = (&motion.profile, &motion.certificate) else {
+        let reason = motion.reason.as_deref().unwrap_or_default();
+        return writeln!(out, "not driven {reason}");
+    };
+    // With a bounded jerk the drive takes longer for that alone.
+    let is_comparable = motion.config.limits.max_jerk_mps3.is_none();
+    let lost_s = profile.duration_s - profile.unhindered_s;
+    let ends = match motion.status {
+        Some(MotionStatus::Waits) => {
+            let s_m = profile.phases.last().map_or(0.0, |phase| phase.s_m);
+            format!("waits at {s_m:.2} m, before what stays in the way")
+        }
+        _ if motion.moving.obstacles.is_empty() => "arrives".to_owned(),
+        _ if is_comparable && lost_s > 0.05 => {
+            format!("arrives {lost_s:.1} s later than with nothing in the way")
+        }
+        _ if profile.stops.is_empty() => "arrives without waiting".to_owned(),
+        _ => "arrives".to_owned(),
+    };
+    writeln!(
+        out,
+        "in time    {:.1} s at up to {:.2} m/s, {}; {ends}",
+        profile.duration_s,
+        certificate.max_speed_mps,
+        counted(profile.stops.len(), "stop"),
+    )?;
+    write_distance(certificate, out)
+}
+
+/// What the judge has proven about moving obstacles.
+pub(crate) fn write_distance(report: &TimedReport, out: &mut impl Write) -> io::Result<()> {
+    let (Some(least_m), Some(nearest)) = (report.min_distance_m, &report.nearest) else {
+        return Ok(());
+    };
+    writeln!(
+        out,
+        "distance   {} from {} at {:.1} s, {} m to be kept, over {:.1} s",
+        clearance(least_m),
+        nearest.obstacle,
+        nearest.t_s,
+        report.distance_m,
+        report.horizon_s.max(report.duration_s),
+    )
 }
 
 /// Travel time and greatest rate of curvature, as far as they are known.

@@ -11,6 +11,7 @@ mod console_examples;
 mod demo;
 mod lidar;
 mod map;
+mod motion;
 mod plan;
 mod reports;
 mod reproduce;

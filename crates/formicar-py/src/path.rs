@@ -122,14 +122,16 @@ impl Track {
                     min_m: f64::NAN,
                     mean_m: f64::NAN,
                 };
-                let exact = PathMetrics::new(self.path(), vehicle, self.path().end(), unknown);
+                let exact = PathMetrics::new(self.path(), vehicle, self.path().end(), unknown)
+                    .with_travel_time(self.path(), vehicle);
                 (exact, None)
             }
             Some(obstacles) => {
                 let (path, report) = self.report(obstacles, vehicle);
                 let least_m = report.min_clearance_m;
                 let clearance = ClearanceSummary::new(obstacles, vehicle, path, least_m);
-                let exact = PathMetrics::new(path, vehicle, path.end(), clearance);
+                let exact = PathMetrics::new(path, vehicle, path.end(), clearance)
+                    .with_travel_time(path, vehicle);
                 let compatible = CompatibleMetrics::new(path, vehicle, obstacles);
                 (exact, Some(compatible))
             }

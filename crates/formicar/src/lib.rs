@@ -26,7 +26,7 @@
 //! The names at the root and the modules [`geometry`], [`vehicle`], [`map`], [`path`],
 //! [`scenario`], [`validation`], [`metrics`], [`progress`] and [`planner`] change only in a major
 //! release (before 1.0: in a minor one, with a line in the changelog). The modules [`parameters`],
-//! [`numeric`], [`collision`], [`layers`], [`objective`], [`smoothing`], [`search`], [`colony`],
+//! [`numeric`], [`collision`], [`motion`], [`layers`], [`objective`], [`smoothing`], [`search`], [`colony`],
 //! [`evolution`], [`tracking`], [`tuning`] and [`render`] are open for study and for planners of
 //! your own; they may change in any minor release.
 //!
@@ -37,7 +37,7 @@
 //!
 //! Modules are ranked, and each uses only those before it: [`parameters`], [`numeric`],
 //! [`geometry`], [`vehicle`], [`map`], [`path`], [`collision`], [`scenario`], [`validation`],
-//! [`metrics`], [`progress`], [`layers`], [`objective`], [`smoothing`], [`search`], [`colony`],
+//! [`metrics`], [`motion`], [`progress`], [`layers`], [`objective`], [`smoothing`], [`search`], [`colony`],
 //! [`evolution`], [`tracking`], [`planner`], [`tuning`], [`render`].
 #![forbid(unsafe_code)]
 
@@ -48,6 +48,7 @@ pub mod geometry;
 pub mod layers;
 pub mod map;
 pub mod metrics;
+pub mod motion;
 pub mod numeric;
 pub mod objective;
 pub mod parameters;

@@ -3,7 +3,10 @@
 
 use formicar::layers::{LayersConfig, MAX_EXPANSION_CELLS};
 use formicar::planner::{PlannerConfig, PlannerName};
-use formicar::tracking::{PurePursuit, Stanley, StartOffset, TrackingConfig};
+use formicar::tracking::{
+    Actuators, MpcParameters, PurePursuit, RegulatedPurePursuit, Stanley, StartOffset,
+    TrackingConfig,
+};
 use schemars::schema_for;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -187,6 +190,9 @@ fn the_table_of_tracking_has_every_parameter() {
         schema_for!(StartOffset),
         schema_for!(PurePursuit),
         schema_for!(Stanley),
+        schema_for!(Actuators),
+        schema_for!(RegulatedPurePursuit),
+        schema_for!(MpcParameters),
     ] {
         for (key, of_key) in schema.to_value()["properties"].as_object().unwrap() {
             let row = page

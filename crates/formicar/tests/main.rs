@@ -26,6 +26,7 @@ mod formats;
 mod grid_search;
 mod improve;
 mod maneuvers;
+mod motion;
 mod parameters;
 mod pictures;
 mod planners;

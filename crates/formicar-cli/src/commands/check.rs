@@ -2,16 +2,18 @@
 #![allow(clippy::doc_markdown, reason = "clap prints these words as they stand")]
 
 use crate::failure::{Ending, Failure};
+use crate::motion_files;
 use crate::output::print_json;
 use crate::path_file::{self, PathFile, Source};
 use crate::scene::{self, Scene, SceneArgs};
-use crate::summary::{clearance, curvature};
+use crate::summary::{clearance, curvature, write_distance};
+use anyhow::{Context, Result, bail};
 use clap::{Args, ValueHint};
 use formicar::collision::ObstacleMap;
 use formicar::numeric::counted;
 use formicar::path::{CurvePath, Direction};
-use formicar::planner::{CertificateNumbers, are_samples_of};
-use formicar::validation::{Report, Violation, path_hash_with_signs};
+use formicar::planner::{CertificateNumbers, DriveQuestion, are_samples_of};
+use formicar::validation::{Report, TimedReport, Violation, judge_in_time, path_hash_with_signs};
 use formicar::vehicle::Vehicle;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -27,6 +29,11 @@ pub(crate) struct CheckArgs {
 
     #[command(flatten)]
     scene: SceneArgs,
+
+    /// Judge the drive of an answer against these moving obstacles instead of the recorded ones
+    /// (JSON, see `schema moving`).
+    #[arg(long, value_name = "F.json", value_hint = ValueHint::FilePath)]
+    moving: Option<PathBuf>,
 
     /// Print the report as one JSON object.
     #[arg(long)]
@@ -62,6 +69,8 @@ struct Checked {
     /// The findings on the drive out of contact before the path, to which the cells touched where
     /// it begins do not count; null where there is none.
     escape: Option<Report>,
+    /// The findings on the drive in time; null where the file has none.
+    in_time: Option<TimedReport>,
     /// Whether the recorded certificate is for this map, vehicle and path.
     matches_record: Option<Matches>,
 }
@@ -81,7 +90,7 @@ pub(crate) fn run(args: &CheckArgs, out: &mut impl Write) -> Result<Ending, Fail
     let scene = scene::load(&args.scene)?;
     let vehicle = &scene.vehicle.vehicle;
     let file = path_file::read(&args.path, vehicle)?;
-    let checked = check(&file, &scene);
+    let checked = check(&file, &scene, in_time(args, &file, vehicle)?);
     if args.json {
         print_json(out, &checked)?;
     } else {
@@ -94,7 +103,35 @@ pub(crate) fn run(args: &CheckArgs, out: &mut impl Write) -> Result<Ending, Fail
     })
 }
 
-fn check(file: &PathFile, scene: &Scene) -> Checked {
+/// The judge's findings on the drive of an answer.
+fn in_time(args: &CheckArgs, file: &PathFile, vehicle: &Vehicle) -> Result<Option<TimedReport>> {
+    let drive = file.motion.as_ref().zip(file.recorded_path());
+    let drive = drive.and_then(|(motion, path)| Some((motion, motion.timed(path)?)));
+    let Some((motion, timed)) = drive else {
+        return match &args.moving {
+            None => Ok(None),
+            Some(_) => bail!(
+                "--moving: {} holds no drive in time; hint: plan one with --moving or --speed",
+                args.path.display()
+            ),
+        };
+    };
+    let predictions = match &args.moving {
+        Some(path) => motion_files::moving(path, None)?,
+        None => motion.moving.predictions()?,
+    };
+    motion.config.check().context("the recorded drive")?;
+    let zones = motion.speed_zones.as_deref();
+    let zones = zones.map(motion_files::speed_zones).transpose()?;
+    let question = DriveQuestion {
+        predictions: &predictions,
+        zones: zones.as_ref(),
+        config: &motion.config,
+    };
+    Ok(Some(judge_in_time(&question.rules(vehicle), &timed)))
+}
+
+fn check(file: &PathFile, scene: &Scene, in_time: Option<TimedReport>) -> Checked {
     let vehicle = &scene.vehicle.vehicle;
     let obstacles = ObstacleMap::new(&scene.map);
     let (path, report) = file.judged(&obstacles, vehicle);
@@ -113,7 +150,8 @@ fn check(file: &PathFile, scene: &Scene) -> Checked {
         schema: "formicar/check/1",
         valid: report.valid
             && poses_on_segments != Some(false)
-            && escape.as_ref().is_none_or(|escape| escape.valid),
+            && escape.as_ref().is_none_or(|escape| escape.valid)
+            && in_time.as_ref().is_none_or(|in_time| in_time.valid),
         source: file.source,
         reading: file.reading.clone(),
         hint: file.hint,
@@ -125,6 +163,7 @@ fn check(file: &PathFile, scene: &Scene) -> Checked {
         certificate: report,
         poses_on_segments,
         escape,
+        in_time,
         matches_record,
     }
 }
@@ -189,6 +228,9 @@ fn explain(
             "violation  the poses on record are not those of the segments; hint: plan again"
         )?;
     }
+    if let Some(in_time) = &checked.in_time {
+        explain_drive(in_time, out)?;
+    }
     if args.all {
         for violation in &report.violations {
             writeln!(out, "violation  {}", violation.message)?;
@@ -200,6 +242,31 @@ fn explain(
         && let Some(hint) = checked.hint.or_else(|| coarse_hint(checked))
     {
         writeln!(out, "hint       {hint}")?;
+    }
+    Ok(())
+}
+
+/// The findings on a drive in time.
+fn explain_drive(report: &TimedReport, out: &mut impl Write) -> io::Result<()> {
+    writeln!(
+        out,
+        "in time    {} of {:.1} s at up to {:.2} m/s: {}",
+        if report.arrives {
+            "a drive"
+        } else {
+            "a drive that waits"
+        },
+        report.duration_s,
+        report.max_speed_mps,
+        if report.valid {
+            "certified"
+        } else {
+            "not valid"
+        },
+    )?;
+    write_distance(report, out)?;
+    for violation in &report.violations {
+        writeln!(out, "violation  {}", violation.message)?;
     }
     Ok(())
 }

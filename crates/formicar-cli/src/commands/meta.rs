@@ -2,7 +2,7 @@
 
 use crate::failure::{Ending, Failure};
 use clap::{Args, Command, ValueEnum};
-use formicar::planner::{Answer, PlannerConfig, RequestDocument};
+use formicar::planner::{Answer, MovingDocument, PlannerConfig, RequestDocument};
 use formicar::tracking::TrackingDocument;
 use formicar::vehicle::VehicleParameters;
 use std::io::Write;
@@ -26,6 +26,8 @@ pub(crate) enum Document {
     Request,
     /// The output of `plan --json`.
     Answer,
+    /// Moving obstacles: `plan --moving`, `check --moving`.
+    Moving,
     /// The output of `track --json`.
     Track,
 }
@@ -37,6 +39,7 @@ pub(crate) fn schema(args: &SchemaArgs, out: &mut impl Write) -> Result<Ending, 
         Document::Vehicle => schemars::schema_for!(VehicleParameters),
         Document::Request => schemars::schema_for!(RequestDocument),
         Document::Answer => schemars::schema_for!(Answer),
+        Document::Moving => schemars::schema_for!(MovingDocument),
         Document::Track => schemars::schema_for!(TrackingDocument),
     };
     serde_json::to_writer_pretty(&mut *out, &schema).map_err(std::io::Error::from)?;

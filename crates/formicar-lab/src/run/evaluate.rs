@@ -63,7 +63,8 @@ impl Evaluation<'_> {
         }
         let (path, least_m) = (&verdict.path, verdict.report.min_clearance_m);
         let clearance = ClearanceSummary::new(self.obstacles, self.vehicle, path, least_m);
-        let exact = PathMetrics::new(path, self.vehicle, request.goal, clearance);
+        let exact = PathMetrics::new(path, self.vehicle, request.goal, clearance)
+            .with_travel_time(path, self.vehicle);
         let compatible = CompatibleMetrics::new(path, self.vehicle, self.obstacles);
         record.measure_path(&exact, &compatible);
         record.cost_m = self.cost_m(path);

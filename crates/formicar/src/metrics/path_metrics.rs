@@ -3,7 +3,7 @@
 use super::SteeringShare;
 use crate::collision::{Body, Drive, ObstacleMap};
 use crate::geometry::{Pose2, angle_difference};
-use crate::path::{CurvePath, CurveSegment, SpeedLimits, SpeedProfile};
+use crate::path::{CurvePath, CurveSegment};
 use crate::vehicle::Vehicle;
 
 /// Distance from the footprint to the nearest occupied cell square or the map border, along a
@@ -118,7 +118,8 @@ pub struct PathMetrics {
     /// Largest absolute angle of the virtual middle front wheel, where the wheelbase is known.
     pub max_steer_rad: Option<f64>,
     /// Time of the fastest drive within the vehicle's speed, the default accelerations of
-    /// [`SpeedLimits`] and the steering rate, seconds; where the vehicle says how fast it drives.
+    /// [`SpeedLimits`](crate::path::SpeedLimits) and the steering rate, seconds; where the vehicle
+    /// says how fast it drives, and [`PathMetrics::with_travel_time`] was asked.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub travel_time_s: Option<f64>,
     /// Turning from step to step, at [`SteeringShare::DEFAULT_SPACING_M`].
@@ -130,9 +131,6 @@ pub struct PathMetrics {
 }
 
 impl PathMetrics {
-    /// Most that two samples of the speed profile lie apart, as in answers.
-    const SPEED_SPACING_M: f64 = 0.1;
-
     /// Joints that turn by less are rounding, radians.
     const CORNER_RAD: f64 = 1e-9;
 
@@ -140,7 +138,7 @@ impl PathMetrics {
     /// that ends in a line ends beside curvature 0 by rounding.
     const SAME_CURVATURE: f64 = 1e-9;
 
-    /// The metrics of a path that should end at `goal`.
+    /// The metrics of a path that should end at `goal`, without a travel time.
     pub fn new(
         path: &CurvePath,
         vehicle: &Vehicle,
@@ -180,9 +178,7 @@ impl PathMetrics {
             min_clearance_m: clearance.min_m,
             mean_clearance_m: clearance.mean_m,
             max_steer_rad: vehicle.steer_rad(max_curvature_per_m),
-            travel_time_s: SpeedLimits::of(vehicle).map(|limits| {
-                SpeedProfile::new(path, vehicle, &limits, Self::SPEED_SPACING_M).travel_time_s
-            }),
+            travel_time_s: None,
             steering_share: SteeringShare::new(path, SteeringShare::DEFAULT_SPACING_M),
             goal_error_m: path.end().position().distance(goal.position()),
             goal_error_rad: angle_difference(path.end().heading, goal.heading).abs(),

@@ -1,13 +1,15 @@
-//! Paths, one type per stage of planning: cells, way points, drivable curves.
+//! Paths, one type per stage of planning: cells, way points, drivable curves, curves in time.
 
 mod ahead;
 mod curve_path;
 mod spacing;
-mod speed;
+mod speed_limits;
+mod timed;
 
 pub use curve_path::{CurvePath, CurveSegment, Direction, PathPose};
 pub use spacing::Spacing;
-pub use speed::{SpeedLimits, SpeedProfile, TimedPose};
+pub use speed_limits::SpeedLimits;
+pub use timed::{Phase, Stop, TimedPath, TimedPose, TimedState, steer_rate_rad_per_s};
 
 use crate::geometry::Point2;
 use crate::map::Cell;

@@ -4,6 +4,7 @@
 //! parameters, its search, and what it says of its failures. `door` holds what happens to every
 //! request, whichever search is asked; `catalog` names the planners.
 
+mod around;
 mod catalog;
 mod cells;
 mod chords;
@@ -18,6 +19,7 @@ mod family;
 mod flagship;
 mod halt;
 mod hybrid;
+mod in_time;
 mod outcome;
 mod polyline;
 mod prepared;
@@ -25,6 +27,7 @@ mod search;
 mod task;
 
 pub use crate::search::{HybridAstarConfig, ImprovedAstarConfig};
+pub use around::{WayAround, way_around};
 pub use catalog::{PlannerConfig, PlannerName};
 pub use cells::{AstarParameters, DijkstraParameters, GridSearchConfig, ImprovedAstarParameters};
 pub use chords::ChordParameters;
@@ -33,9 +36,10 @@ pub use config::ConfigError;
 #[cfg(feature = "serde")]
 pub use documents::{
     ANSWER_SCHEMA, Answer, AnswerContext, AnswerError, AnswerStatus, CertificateHashes,
-    CertificateNumbers, ColonyRecord, ConfigRecord, EscapeRecord, KeepOutMapRecord, MapRecord,
-    PathDocument, PoseRecord, Provenance, RequestDocument, SegmentRecord, SoftCostsRecord,
-    StoredPath, Timing, VehicleRecord, ViaRecord, are_samples_of,
+    CertificateNumbers, ColonyRecord, ConfigRecord, EscapeRecord, KeepOutMapRecord, MOVING_SCHEMA,
+    MapRecord, MotionRecord, MovingDocument, PathDocument, PoseRecord, ProfileRecord, Provenance,
+    RequestDocument, SegmentRecord, SoftCostsRecord, StoredPath, Timing, VehicleRecord, ViaRecord,
+    are_samples_of,
 };
 pub use documents::{Collision, Disconnected, Explanation, Gap};
 pub use door::{Escape, Planner, plan};
@@ -43,6 +47,7 @@ pub use evolution::EvolutionParameters;
 pub use flagship::{FormicarParameters, ReplanConfig};
 pub use halt::{Ended, Found, Halt};
 pub use hybrid::HybridAstarParameters;
+pub use in_time::{DriveError, DriveQuestion, TimedPlan, drive_in_time};
 pub use outcome::{NotFound, Outcome, Plan, PlanError, Stages};
 pub use prepared::PreparedCells;
 pub use search::{Abilities, Hints, PathSearch, SeveralGoals, Vehicles};

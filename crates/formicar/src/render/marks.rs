@@ -115,6 +115,34 @@ impl Scene {
         self
     }
 
+    /// The outline of something at a moment, grown by a radius, with a label beside it.
+    pub(super) fn ghost(&mut self, corners: &[Point2], radius_m: f64, color: Color, label: &str) {
+        let px: Vec<_> = corners.iter().map(|&p| self.view.to_px(p)).collect();
+        let middle = px.iter().fold(Point2::default(), |sum, &p| sum + p);
+        let middle = middle * (1.0 / px.len().max(1) as f64);
+        if px.is_empty() || !self.view.shows(middle) {
+            return;
+        }
+        let radius_px = radius_m * self.view.px_per_m();
+        let shape = if let [center] = px[..] {
+            Element::circle(center, radius_px.max(1.0))
+        } else {
+            let mut outline = PathData::default();
+            outline.polygon(px.iter().copied());
+            Element::path(outline)
+        };
+        let shape = shape.fill(color).text("fill-opacity", "0.14");
+        self.body
+            .add(&shape.pen(color, 1.0).text("stroke-opacity", "0.75"));
+        if !label.is_empty() {
+            let reach_px = px
+                .iter()
+                .map(|p| p.distance(middle))
+                .fold(radius_px, f64::max);
+            self.labels.name(middle, 0.5 * reach_px, label, color);
+        }
+    }
+
     /// A point with its name beside it.
     pub fn point(&mut self, place: Point2, name: &str) -> &mut Self {
         let at = self.view.to_px(place);

@@ -31,6 +31,7 @@ mod png;
 #[cfg(feature = "gif-pictures")]
 mod quantize;
 mod scene;
+mod space_time;
 mod style;
 mod svg;
 mod ticks;
@@ -54,4 +55,5 @@ pub use plan_parts::PlanPicture;
 #[cfg(feature = "png-pictures")]
 pub use png::RenderError;
 pub use scene::Scene;
+pub use space_time::space_time_charts;
 pub use style::{CellStyle, Dash, Layout, LineStyle, PoseMark};

@@ -1,6 +1,6 @@
 //! The configuration of a simulated drive: controller, speed, steps, start, and when to give up.
 
-use super::{Controller, TrackingError};
+use super::{Actuators, Controller, TrackingError};
 use crate::parameters::{OutOfRange, parameters};
 use crate::vehicle::{Motion, Vehicle};
 use std::f64::consts::PI;
@@ -31,6 +31,9 @@ parameters! {
         /// Time between two points of the trace, seconds.
         #[range(0.0001..=60.0)]
         pub record_interval_s: f64 = 0.1,
+        /// Delay, acceleration and control period; of drives in time alone.
+        #[serde(skip_serializing_if = "Actuators::is_usual")]
+        pub actuators: Actuators = Actuators::default(),
         /// How far beside the path's first pose the vehicle starts.
         pub start_offset: StartOffset = StartOffset::default(),
         /// Cross-track error at which the vehicle has left the path, meters; above the lateral

@@ -1,7 +1,7 @@
 //! Control laws for the steering.
 
 use super::view::View;
-use super::{PurePursuit, Stanley};
+use super::{MpcParameters, PurePursuit, RegulatedPurePursuit, Stanley};
 use crate::parameters::{OutOfRange, Parameters};
 
 /// What turns the wheels.
@@ -16,6 +16,10 @@ pub enum Controller {
     PurePursuit(PurePursuit),
     /// Points the front wheels along the path, and towards it where the front axle is off it.
     Stanley(Stanley),
+    /// Pure pursuit that slows down in turns, near obstacles and toward stops; in time alone.
+    RegulatedPurePursuit(RegulatedPurePursuit),
+    /// Looks ahead with a model of the vehicle; in time alone.
+    Mpc(MpcParameters),
 }
 
 impl Default for Controller {
@@ -30,6 +34,8 @@ impl Parameters for Controller {
             Self::OpenLoop => Ok(()),
             Self::PurePursuit(law) => law.check(),
             Self::Stanley(law) => law.check(),
+            Self::RegulatedPurePursuit(law) => law.check(),
+            Self::Mpc(parameters) => parameters.check(),
         }
     }
 }
@@ -41,13 +47,17 @@ impl Controller {
             Self::OpenLoop => "open-loop",
             Self::PurePursuit(_) => "pure-pursuit",
             Self::Stanley(_) => "stanley",
+            Self::RegulatedPurePursuit(_) => "regulated-pure-pursuit",
+            Self::Mpc(_) => "mpc",
         }
     }
 
     /// The steering angle that the law asks for, radians, whatever the vehicle can do.
     pub(super) fn steer_rad(&self, view: &View) -> f64 {
         match self {
-            Self::OpenLoop => {
+            // Those that need a speed of their own steer by the path where they are asked for an angle
+            // alone; drives at one speed refuse them.
+            Self::OpenLoop | Self::RegulatedPurePursuit(_) | Self::Mpc(_) => {
                 let curvature_per_m = view.stretch.curvature_at(view.driven_m);
                 (view.wheelbase_m * curvature_per_m).atan()
             }
@@ -56,9 +66,17 @@ impl Controller {
         }
     }
 
+    /// True for a law that needs a timed path: [`track_in_time`](super::track_in_time).
+    pub fn needs_time(&self) -> bool {
+        matches!(self, Self::RegulatedPurePursuit(_) | Self::Mpc(_))
+    }
+
     pub(super) fn for_wheelbase(self, wheelbase_m: f64) -> Self {
         match self {
             Self::PurePursuit(law) => Self::PurePursuit(law.for_wheelbase(wheelbase_m)),
+            Self::RegulatedPurePursuit(law) => {
+                Self::RegulatedPurePursuit(law.for_wheelbase(wheelbase_m))
+            }
             other => other,
         }
     }

@@ -20,6 +20,7 @@ mod simulate;
 mod stanley;
 mod stretch;
 mod swept_area;
+mod timed;
 mod trace;
 mod view;
 
@@ -32,4 +33,10 @@ pub use pure_pursuit::PurePursuit;
 pub use simulate::track;
 pub use stanley::Stanley;
 pub use swept_area::swept_area_m2;
+#[cfg(feature = "mpc")]
+pub use timed::ModelPredictive;
+pub use timed::{
+    Actuators, DriveCommand, DriveController, DriveLimits, DriveMoment, MpcParameters,
+    RegulatedPurePursuit, track_by, track_in_time,
+};
 pub use trace::{TracePoint, Tracking, TrackingStatus, TrackingSummary};

@@ -36,6 +36,15 @@ pub enum TrackingError {
         /// The most that is allowed, meters.
         limit_m: f64,
     },
+    /// A controller that needs a timed path, in a drive at one speed.
+    #[error("{controller} drives in time; hint: give it a timed path (--speed-plan)")]
+    NeedsTime {
+        /// Its name.
+        controller: &'static str,
+    },
+    /// The model-predictive controller of a library without it.
+    #[error("mpc is not compiled in; hint: enable the feature `mpc` of formicar")]
+    NotCompiledIn,
     /// A drive of too many steps.
     #[error(
         "the drive takes up to {n_steps:.0} steps, at most {limit:.0} are simulated; hint: raise time_step_s or speed_mps, or cut the path"

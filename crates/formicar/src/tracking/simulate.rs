@@ -50,6 +50,10 @@ pub fn track(
     config: &TrackingConfig,
 ) -> Result<Tracking, TrackingError> {
     let config = config.for_vehicle(vehicle)?;
+    if config.controller.needs_time() {
+        let controller = config.controller.name();
+        return Err(TrackingError::NeedsTime { controller });
+    }
     let stretches = stretches(path)?;
     let mut run = Run::new(path, vehicle, config)?;
     let status = run.drive(path, &stretches);
@@ -196,15 +200,12 @@ impl Run {
     /// end is where the driven length says, and a step ends where the path's steering changes.
     fn step_length_m(&self, leg: &Leg) -> Option<f64> {
         let length_m = leg.stretch.length_m();
-        let [left_m, to_joint_m, least_m] = match self.config.controller {
-            Controller::OpenLoop => {
-                let joint_m = leg.stretch.next_joint_m(leg.driven_m);
-                [length_m - leg.driven_m, joint_m - leg.driven_m, 0.0]
-            }
-            Controller::PurePursuit(_) | Controller::Stanley(_) => {
-                let least_m = LEAST_STEP * self.step_m;
-                [length_m - leg.offset.foot_m, f64::INFINITY, least_m]
-            }
+        let [left_m, to_joint_m, least_m] = if self.config.controller == Controller::OpenLoop {
+            let joint_m = leg.stretch.next_joint_m(leg.driven_m);
+            [length_m - leg.driven_m, joint_m - leg.driven_m, 0.0]
+        } else {
+            let least_m = LEAST_STEP * self.step_m;
+            [length_m - leg.offset.foot_m, f64::INFINITY, least_m]
         };
         (left_m > least_m).then(|| self.step_m.min(left_m).min(to_joint_m))
     }
@@ -287,6 +288,7 @@ impl Run {
             right_wheel_rad,
             cross_track_error_m: offset.cross_track_m,
             heading_error_rad: offset.heading_rad,
+            speed_mps: None,
         };
         if self.trace.last() != Some(&point) {
             self.trace.push(point);
@@ -337,6 +339,7 @@ impl Run {
             max_wheel_rad: left.abs().max(right.abs()),
             steering_saturated_share: share(self.saturated_m),
             swept_area_m2,
+            n_controller_failures: 0,
         }
     }
 }

@@ -58,6 +58,12 @@ pub struct TracePoint {
     pub cross_track_error_m: f64,
     /// Heading less that of the path's nearest place, in (-pi, pi].
     pub heading_error_rad: f64,
+    /// Speed, m/s, negative in reverse; of drives in time.
+    #[cfg_attr(
+        feature = "serde",
+        serde(default, skip_serializing_if = "Option::is_none")
+    )]
+    pub speed_mps: Option<f64>,
 }
 
 /// A simulated drive in numbers.
@@ -93,6 +99,18 @@ pub struct TrackingSummary {
     pub steering_saturated_share: f64,
     /// Ground that the footprint swept, square meters, as [`super::swept_area_m2`] measures it.
     pub swept_area_m2: f64,
+    /// How often the controller had no answer and braked instead; 0 of those that always have one.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_zero"))]
+    pub n_controller_failures: usize,
+}
+
+#[cfg(feature = "serde")]
+#[allow(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde hands over a reference"
+)]
+fn is_zero(number: &usize) -> bool {
+    *number == 0
 }
 
 /// A simulated drive.
@@ -116,15 +134,18 @@ impl Tracking {
     pub fn trace_csv(&self) -> String {
         let mut text = String::from(
             "t_s,driven_m,s_m,x,y,heading,direction,steer_rad,left_wheel_rad,right_wheel_rad,\
-             cross_track_error_m,heading_error_rad\n",
+             cross_track_error_m,heading_error_rad",
         );
+        let is_timed = self.trace.iter().any(|p| p.speed_mps.is_some());
+        text.push_str(if is_timed { ",speed_mps\n" } else { "\n" });
         for p in &self.trace {
             let Pose2 { x, y, heading } = p.pose;
             let direction = i8::from(p.direction);
+            let speed = p.speed_mps.map_or(String::new(), |v| format!(",{v}"));
             // Writing to a string does not fail.
             let _ = writeln!(
                 text,
-                "{},{},{},{x},{y},{heading},{direction},{},{},{},{},{}",
+                "{},{},{},{x},{y},{heading},{direction},{},{},{},{},{}{speed}",
                 p.t_s,
                 p.driven_m,
                 p.s_m,

@@ -13,6 +13,7 @@ mod continuity;
 mod ends;
 mod foreign;
 mod foreign_path;
+mod in_time;
 mod judge;
 mod report;
 #[cfg(feature = "formats")]
@@ -27,6 +28,10 @@ mod via;
 pub use ends::missed_start;
 pub use foreign::{FOREIGN_CURVATURE_SLACK, path_through_points, path_through_poses};
 pub use foreign_path::ForeignPath;
+pub use in_time::{
+    DriveRules, Nearest, TimedCertificate, TimedReport, TimedViolation, TimedViolationKind,
+    judge_in_time,
+};
 pub(crate) use judge::judge_while;
 pub use judge::{judge, judge_path, path_hash_with_signs};
 pub use report::{Certificate, Report, Violation, ViolationKind};

@@ -1,5 +1,6 @@
 //! Flags of `plan`.
 
+use super::motion::MotionArgs;
 use crate::mode_args::ModeArgs;
 use crate::scene::SceneArgs;
 use crate::values::{self, Budget};
@@ -131,4 +132,8 @@ pub(crate) struct PlanArgs {
     /// flags supply what a line leaves out.
     #[arg(long, conflicts_with = "json")]
     pub(crate) stdin: bool,
+
+    // Last, since its heading is that of all flags after it.
+    #[command(flatten)]
+    pub(crate) motion: MotionArgs,
 }

@@ -1,6 +1,7 @@
 //! `plan`: from a map and two poses to a certified path.
 
 mod args;
+mod motion;
 #[cfg(feature = "record")]
 mod record;
 mod soft_costs;
@@ -16,14 +17,13 @@ use crate::scene::{self, Scene};
 use crate::session::{Answered, Session};
 use crate::values::Budget;
 use crate::{settings, summary};
-use anyhow::Result;
+use anyhow::{Result, anyhow};
 use formicar::geometry::Pose2;
 use formicar::numeric::Seed;
-#[cfg(feature = "record")]
-use formicar::planner::Outcome;
-use formicar::planner::{PlannerName, RequestDocument, ViaRecord};
+use formicar::planner::{Outcome, PlannerName, RequestDocument, ViaRecord};
 use formicar::render::Layout;
 use formicar::scenario::{CurvatureMode, CurvatureRate, StartContact, ViaPoint};
+use motion::{Driven, Motion};
 use std::io::Write;
 use std::time::Instant;
 
@@ -53,6 +53,12 @@ pub(crate) fn run(args: &PlanArgs, out: &mut impl Write) -> Result<Ending, Failu
     if targets.ants.is_some() {
         ants::check(config.planner())?;
     }
+    let motion = args.motion.load(&scene.vehicle.vehicle)?;
+    if motion.is_some() && args.stdin {
+        return Err(Failure::Input(anyhow!(
+            "--stdin: no speed is planned for requests from stdin; hint: plan them one by one"
+        )));
+    }
     let soft_costs = soft_costs::load(args, &mut scene, config.planner())?;
     let defaults = RequestDocument {
         budget_steps: budget_steps(args.budget, config.planner()),
@@ -70,9 +76,13 @@ pub(crate) fn run(args: &PlanArgs, out: &mut impl Write) -> Result<Ending, Failu
     if args.stdin {
         return stdin::run(&mut session, &defaults, Seed(args.seed), out);
     }
-    let answered = session.ask(&defaults, &RequestDocument::default(), Seed(args.seed));
+    let mut answered = session.ask(&defaults, &RequestDocument::default(), Seed(args.seed));
+    let driven = match motion {
+        Some(motion) => drive(&session, &mut answered, motion)?,
+        None => None,
+    };
     if answered.ending() != Ending::Refused {
-        write_files(&session, &answered, &targets)?;
+        write_files(&session, &answered, driven.as_ref(), &targets)?;
     }
     if args.json {
         print_json(out, &answered.answer)?;
@@ -82,7 +92,50 @@ pub(crate) fn run(args: &PlanArgs, out: &mut impl Write) -> Result<Ending, Failu
         let vehicle = &session.scene.vehicle.vehicle;
         summary::write(&answered.answer, vehicle, answered.n_improvements, out)?;
     }
-    Ok(answered.ending())
+    Ok(match driven {
+        // A path that cannot be driven now is none.
+        Some((_, Driven { plan: None, .. })) => Ending::NoPath,
+        _ => answered.ending(),
+    })
+}
+
+/// The note of a path that was chosen for its time.
+const AROUND: &str = "the path leads around moving obstacles: to wait for them would take longer";
+
+/// Plans the speed along the path found; the answer gets the drive.
+fn drive(
+    session: &Session,
+    answered: &mut Answered,
+    motion: Motion,
+) -> Result<Option<(Motion, Driven)>> {
+    let Ok(Outcome::Found(plan)) = &answered.result else {
+        return Ok(None);
+    };
+    let (obstacles, vehicle) = (&session.obstacles, &session.scene.vehicle.vehicle);
+    let mut driven = motion.drive(obstacles, vehicle, &plan.path)?;
+    let asked = answered.answer.provenance.request.as_ref();
+    let request = asked.and_then(|r| r.onto(&RequestDocument::default()).ok());
+    if let Some(request) = request {
+        let seed = Seed(answered.answer.seed);
+        if let Some(way) = motion.around(session, (&request, seed), &driven)? {
+            driven = motion.driven(way.drive);
+            let notes = [AROUND.to_owned()].into_iter();
+            let result = Ok(Outcome::Found(Box::new(way.plan)));
+            let timing = answered.answer.timing;
+            let answer = session
+                .context()
+                .answer(Some(&request), seed, &result, timing);
+            let notes = notes.chain(answer.notes.clone()).collect();
+            answered.answer = answer.with_notes(notes);
+            answered.result = result;
+        }
+    }
+    let record = driven.record.clone();
+    answered.answer = answered
+        .answer
+        .clone()
+        .with_motion(record, obstacles, vehicle);
+    Ok(Some((motion, driven)))
 }
 
 impl Targets {
@@ -153,7 +206,12 @@ fn via_record(args: &PlanArgs, via: &ViaPoint) -> ViaRecord {
     })
 }
 
-fn write_files(session: &Session, answered: &Answered, targets: &Targets) -> Result<()> {
+fn write_files(
+    session: &Session,
+    answered: &Answered,
+    driven: Option<&(Motion, Driven)>,
+    targets: &Targets,
+) -> Result<()> {
     for target in &targets.out {
         match (target.kind, &answered.answer.path) {
             (OutKind::Answer, _) => {
@@ -176,6 +234,20 @@ fn write_files(session: &Session, answered: &Answered, targets: &Targets) -> Res
             outcome,
             Layout::Page,
         );
+        let image = match driven {
+            Some((
+                motion,
+                Driven {
+                    plan: Some(plan), ..
+                },
+            )) => image.with_motion(
+                &plan.motion,
+                motion.predictions(),
+                &session.scene.vehicle.vehicle,
+                motion.max_speed_mps(),
+            ),
+            _ => image,
+        };
         target.write(&picture::encode(&image, target.kind)?)?;
     }
     #[cfg(feature = "record")]

@@ -4,7 +4,10 @@ use crate::scene::SceneArgs;
 use crate::values;
 use anyhow::{Result, bail};
 use clap::{Args, ValueEnum, ValueHint};
-use formicar::tracking::{Controller, PurePursuit, Stanley, StartOffset, TrackingConfig};
+use formicar::tracking::{
+    Actuators, Controller, MpcParameters, PurePursuit, RegulatedPurePursuit, Stanley, StartOffset,
+    TrackingConfig,
+};
 use std::path::PathBuf;
 
 /// Flags of `track`.
@@ -21,6 +24,19 @@ pub(crate) struct TrackArgs {
     /// Steering controller; `stanley` by default.
     #[arg(long, value_name = "LAW")]
     controller: Option<Law>,
+
+    /// Drive in time: by the drive of the answer (`plan --moving`, `plan --speed`) or, without one,
+    /// by the fastest within speed, acceleration and steering rate.
+    #[arg(long)]
+    pub(super) speed_plan: bool,
+
+    /// Time until a command takes effect, seconds; 0 by default.
+    #[arg(long, value_name = "S", value_parser = values::not_negative, allow_hyphen_values = true)]
+    delay: Option<f64>,
+
+    /// Largest acceleration in m/s^2, with a speed plan; that of the vehicle by default, or 1.
+    #[arg(long, value_name = "MPS2", value_parser = values::positive, allow_hyphen_values = true)]
+    acceleration: Option<f64>,
 
     /// Lookahead distance of `pure-pursuit`, meters; half a wheelbase by default.
     #[arg(long, value_name = "M", value_parser = values::positive, allow_hyphen_values = true)]
@@ -81,9 +97,27 @@ enum Law {
     PurePursuit,
     /// The front wheels follow the path and steer toward it.
     Stanley,
+    /// Pure pursuit that slows down in turns, near obstacles and toward stops.
+    RegulatedPurePursuit,
+    /// Look ahead with a model of the vehicle.
+    Mpc,
 }
 
 impl TrackArgs {
+    /// True where the drive is one in time.
+    pub(super) fn is_in_time(&self, config: &TrackingConfig) -> Result<bool> {
+        let is_in_time = self.speed_plan || config.controller.needs_time();
+        for (flag, is_given) in [
+            ("--delay", self.delay.is_some()),
+            ("--acceleration", self.acceleration.is_some()),
+        ] {
+            if is_given && !is_in_time {
+                bail!("{flag}: a drive at one speed has no such parameter; hint: --speed-plan");
+            }
+        }
+        Ok(is_in_time)
+    }
+
     /// The parameters of the flags, over the defaults.
     pub(super) fn config(&self) -> Result<TrackingConfig> {
         let usual = TrackingConfig::default();
@@ -93,6 +127,11 @@ impl TrackArgs {
             max_steer_rate_rad_per_s: self.steer_rate,
             time_step_s: self.time_step.unwrap_or(usual.time_step_s),
             record_interval_s: self.record.unwrap_or(usual.record_interval_s),
+            actuators: Actuators {
+                delay_s: self.delay.unwrap_or(usual.actuators.delay_s),
+                max_acceleration_mps2: self.acceleration,
+                ..usual.actuators
+            },
             start_offset: self.offset.unwrap_or(usual.start_offset),
             give_up_error_m: self.give_up.unwrap_or(usual.give_up_error_m),
             ..usual
@@ -110,6 +149,10 @@ impl TrackArgs {
                 gain_per_s: self.gain.unwrap_or(usual.gain_per_s),
                 softening_mps: self.softening.unwrap_or(usual.softening_mps),
             }),
+            Law::RegulatedPurePursuit => {
+                Controller::RegulatedPurePursuit(RegulatedPurePursuit::default())
+            }
+            Law::Mpc => Controller::Mpc(MpcParameters::default()),
         };
         // A flag of another law would do nothing.
         for (flag, is_given, law) in [

@@ -7,13 +7,16 @@ pub(crate) use args::TrackArgs;
 
 use crate::failure::{Ending, Failure};
 use crate::output::{Target, print_json};
-use crate::path_file;
+use crate::path_file::{self, PathFile};
 use crate::picture::{self, PictureKind};
 use crate::scene;
 use anyhow::{Context, Result};
 use formicar::collision::ObstacleMap;
+use formicar::motion::fastest;
+use formicar::path::{CurvePath, Spacing, SpeedLimits, TimedPath};
 use formicar::render::{DrivePicture, drive_picture};
-use formicar::tracking::track;
+use formicar::tracking::{TrackingConfig, track, track_in_time};
+use formicar::vehicle::Vehicle;
 use std::io::Write;
 use words::Driven;
 
@@ -28,8 +31,13 @@ pub(crate) fn run(args: &TrackArgs, out: &mut impl Write) -> Result<Ending, Fail
     let file = path_file::read(&args.path, vehicle)?;
     let obstacles = ObstacleMap::new(&scene.map);
     let (planned, report) = file.judged(&obstacles, vehicle);
-    let drive =
-        track(planned, vehicle, &config).with_context(|| args.path.display().to_string())?;
+    let name = || args.path.display().to_string();
+    let drive = if args.is_in_time(&config)? {
+        let timed = timed(&file, planned, vehicle, &config);
+        track_in_time(&timed, Some(&obstacles), vehicle, &config).with_context(name)?
+    } else {
+        track(planned, vehicle, &config).with_context(name)?
+    };
     let driven = Driven {
         scene: &scene,
         obstacles: &obstacles,
@@ -55,6 +63,31 @@ pub(crate) fn run(args: &TrackArgs, out: &mut impl Write) -> Result<Ending, Fail
         Ending::Done
     } else {
         Ending::NoPath
+    })
+}
+
+/// The times to keep: those of the answer, or of the fastest drive at the speed of the simulation.
+fn timed(
+    file: &PathFile,
+    planned: &CurvePath,
+    vehicle: &Vehicle,
+    config: &TrackingConfig,
+) -> TimedPath {
+    let recorded = file.motion.as_ref();
+    let recorded = recorded.and_then(|motion| motion.timed(planned));
+    recorded.unwrap_or_else(|| {
+        let usual = SpeedLimits::default();
+        let of_vehicle = SpeedLimits::of(vehicle).unwrap_or_else(|| usual.clone());
+        let limits = SpeedLimits {
+            max_speed_mps: config.speed_mps.unwrap_or(of_vehicle.max_speed_mps),
+            max_acceleration_mps2: config
+                .actuators
+                .max_acceleration_mps2
+                .unwrap_or(of_vehicle.max_acceleration_mps2),
+            max_steer_rate_rad_per_s: config.max_steer_rate_rad_per_s,
+            ..usual
+        };
+        fastest(planned, vehicle, &limits, Spacing::default())
     })
 }
 

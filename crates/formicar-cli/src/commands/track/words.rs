@@ -33,7 +33,7 @@ pub(super) fn verdict(driven: &Driven) -> &'static str {
 pub(super) fn caption(driven: &Driven) -> String {
     let summary = &driven.drive.summary;
     format!(
-        "{} by {} at {} m/s: {:.2} m in {:.0} s, {} m beside the path at most, {}, swept {:.1} m²",
+        "{} by {} at {}: {:.2} m in {:.0} s, {} m beside the path at most, {}, swept {:.1} m²",
         driven.scene.vehicle.name,
         law(driven),
         speed(driven),
@@ -59,7 +59,7 @@ pub(super) fn explain(driven: &Driven, out: &mut impl Write) -> io::Result<()> {
     let summary = &driven.drive.summary;
     writeln!(
         out,
-        "{:<9}  {:.2} m in {:.1} s at {} m/s by {}, {}",
+        "{:<9}  {:.2} m in {:.1} s at {} by {}, {}",
         verdict(driven),
         summary.driven_m,
         summary.duration_s,
@@ -98,6 +98,10 @@ pub(super) fn explain(driven: &Driven, out: &mut impl Write) -> io::Result<()> {
         nearest(driven),
         summary.swept_area_m2,
     )?;
+    if summary.n_controller_failures > 0 {
+        let times = counted(summary.n_controller_failures, "time");
+        writeln!(out, "braked     {times}, for want of a solution")?;
+    }
     match hint(driven) {
         Some(hint) => writeln!(out, "hint       {hint}"),
         None => Ok(()),
@@ -162,11 +166,18 @@ fn law(driven: &Driven) -> String {
             "pure pursuit".to_owned() + &lookahead.unwrap_or_default()
         }
         Controller::Stanley(law) => format!("stanley (gain {} 1/s)", law.gain_per_s),
+        Controller::RegulatedPurePursuit(_) => "regulated pure pursuit".to_owned(),
+        Controller::Mpc(_) => "model-predictive control".to_owned(),
     }
 }
 
-fn speed(driven: &Driven) -> f64 {
-    driven.drive.config.speed_mps.unwrap_or_default()
+/// The speed of the drive; of a drive in time, its highest.
+fn speed(driven: &Driven) -> String {
+    let speeds = driven.drive.trace.iter().filter_map(|p| p.speed_mps);
+    match speeds.map(f64::abs).reduce(f64::max) {
+        Some(top_mps) => format!("up to {top_mps:.2} m/s"),
+        None => format!("{} m/s", driven.drive.config.speed_mps.unwrap_or_default()),
+    }
 }
 
 /// A length to the millimeter.

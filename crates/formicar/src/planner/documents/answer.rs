@@ -1,7 +1,8 @@
 //! The answer document: one definition of what every front end prints about a query.
 
 use super::path_document::PathDocument;
-use super::{Explanation, RequestDocument};
+use super::{Explanation, MotionRecord, RequestDocument};
+use crate::collision::ObstacleMap;
 use crate::map::GridFrame;
 use crate::metrics::PathMetrics;
 use crate::numeric::{Seed, counted};
@@ -64,6 +65,9 @@ pub struct Answer {
     pub escape: Option<EscapeRecord>,
     /// The path, only if it is certified.
     pub path: Option<PathDocument>,
+    /// The drive along the path in time; missing where none was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motion: Option<MotionRecord>,
     /// All that a repetition of the run needs.
     pub provenance: Provenance,
 }
@@ -397,6 +401,7 @@ impl AnswerContext<'_> {
             timing: Timing::default(),
             escape: None,
             path: None,
+            motion: None,
             provenance: self.provenance(request),
         }
     }
@@ -416,6 +421,33 @@ impl AnswerContext<'_> {
                 .planner
                 .config()
                 .map(|config| ConfigRecord::Known(Box::new(config.clone()))),
+        }
+    }
+}
+
+impl Answer {
+    /// The same answer with other remarks.
+    #[must_use]
+    pub fn with_notes(self, notes: Vec<String>) -> Self {
+        Self { notes, ..self }
+    }
+
+    /// The same answer with a drive along its path, whose poses get the times of the drive.
+    #[must_use]
+    pub fn with_motion(
+        self,
+        record: MotionRecord,
+        obstacles: &ObstacleMap,
+        vehicle: &Vehicle,
+    ) -> Self {
+        let path = self.path.map(|path| {
+            let timed = path.curve_path().and_then(|curve| record.timed(&curve));
+            timed.map_or(path.clone(), |timed| path.timed(&timed, obstacles, vehicle))
+        });
+        Self {
+            path,
+            motion: Some(record),
+            ..self
         }
     }
 }

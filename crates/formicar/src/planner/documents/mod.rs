@@ -4,6 +4,8 @@
 mod answer;
 mod explanation;
 #[cfg(feature = "serde")]
+mod motion_record;
+#[cfg(feature = "serde")]
 mod path_document;
 #[cfg(feature = "serde")]
 mod recorded_poses;
@@ -20,6 +22,8 @@ pub use answer::{
     KeepOutMapRecord, MapRecord, Provenance, SoftCostsRecord, Timing, VehicleRecord,
 };
 pub use explanation::{Collision, Disconnected, Explanation, Gap};
+#[cfg(feature = "serde")]
+pub use motion_record::{MOVING_SCHEMA, MotionRecord, MovingDocument, ProfileRecord};
 #[cfg(feature = "serde")]
 pub use path_document::{PathDocument, PoseRecord, SegmentRecord};
 #[cfg(feature = "serde")]

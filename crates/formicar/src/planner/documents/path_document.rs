@@ -2,8 +2,10 @@
 
 use crate::collision::{Body, ObstacleMap};
 use crate::geometry::{Pose2, wrap_angle};
+use crate::motion::fastest;
 use crate::path::{
-    CurvePath, CurveSegment, Direction, Spacing, SpeedLimits, SpeedProfile, TimedPose,
+    CurvePath, CurveSegment, Direction, Spacing, SpeedLimits, Stop, TimedPath, TimedPose,
+    steer_rate_rad_per_s,
 };
 use crate::vehicle::Vehicle;
 use std::fmt::Write;
@@ -44,9 +46,16 @@ pub struct PoseRecord {
     /// Speed when the pose is reached, meters per second; where the vehicle says how fast it drives.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub speed: Option<f64>,
-    /// Time when the pose is reached, seconds; where the vehicle says how fast it drives.
+    /// Time when the pose is reached, seconds; where the vehicle says how fast it drives. Where it
+    /// stands on the way, the pose is listed twice: as it is reached, and as it is left.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
+    /// Acceleration with which the pose is reached, m/s^2; of drives planned in time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub acceleration: Option<f64>,
+    /// Change of the steering angle as the pose is reached, rad/s; of drives planned in time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub steer_rate: Option<f64>,
 }
 
 /// A line, an arc or a clothoid; along it the heading changes by
@@ -107,6 +116,8 @@ impl PathDocument {
                 clearance: obstacles.clearance_m(&body, obstacles.frame().to_grid(at.pose)),
                 speed: timed.map(|timed| timed.speed_mps),
                 time: timed.map(|timed| timed.time_s),
+                acceleration: None,
+                steer_rate: None,
             };
             let left = after_cusps.next_if(|(cusp, _)| *cusp == i);
             let left = left.map(|(_, next)| PoseRecord {
@@ -125,6 +136,52 @@ impl PathDocument {
         }
     }
 
+    /// The same path with the times of a drive along it; where the vehicle stands on the way there are
+    /// poses too. Poses that it does not reach have neither speed nor time.
+    #[must_use]
+    pub fn timed(&self, timed: &TimedPath, obstacles: &ObstacleMap, vehicle: &Vehicle) -> Self {
+        let mut stops = timed.stops().into_iter().peekable();
+        let body = Body::new(vehicle);
+        let is_cusp = |i: usize| {
+            let pair = self.poses.get(i).zip(self.poses.get(i + 1));
+            pair.is_some_and(|(a, b)| a.s == b.s && a.direction != b.direction)
+        };
+        let mut poses = Vec::new();
+        for (i, pose) in self.poses.iter().enumerate() {
+            while let Some(stop) = stops.next_if(|stop| stop.s_m < pose.s - SAME_PLACE_M) {
+                let place = timed.path().pose_at(stop.s_m);
+                let at = standing(timed.path(), stop.s_m, pose);
+                let at = PoseRecord {
+                    clearance: obstacles.clearance_m(&body, obstacles.frame().to_grid(place)),
+                    steer: vehicle.steer_rad(at.curvature),
+                    ..at
+                };
+                poses.extend(twice(&in_time(&at, timed, vehicle), stop));
+            }
+            let here = in_time(pose, timed, vehicle);
+            let stop = stops.peek().copied();
+            let stop = stop.filter(|stop| (stop.s_m - pose.s).abs() <= SAME_PLACE_M);
+            let Some(stop) = stop else {
+                poses.push(here);
+                continue;
+            };
+            // At a change of gear the document has two poses already, as a stop has.
+            let [reached, left] = twice(&here, stop);
+            let closes_cusp = i > 0 && is_cusp(i - 1);
+            if !closes_cusp {
+                poses.push(reached);
+            }
+            if !is_cusp(i) {
+                poses.push(left);
+                stops.next();
+            }
+        }
+        Self {
+            poses,
+            segments: self.segments.clone(),
+        }
+    }
+
     /// The path behind the document: from its segments, or standing still at its only pose.
     pub fn curve_path(&self) -> Option<CurvePath> {
         let segments: Vec<_> = self.segments.iter().map(CurveSegment::from).collect();
@@ -138,12 +195,25 @@ impl PathDocument {
     pub fn poses_csv(&self) -> String {
         let mut text = String::from("x,y,heading,s,direction,curvature,steer,clearance");
         let is_timed = self.poses.first().is_some_and(|p| p.time.is_some());
-        text.push_str(if is_timed { ",speed,time\n" } else { "\n" });
+        let is_planned = self.poses.iter().any(|p| p.acceleration.is_some());
+        text.push_str(match (is_timed, is_planned) {
+            (true, true) => ",speed,time,acceleration,steer_rate\n",
+            (true, false) => ",speed,time\n",
+            _ => "\n",
+        });
         for p in &self.poses {
             let steer = p.steer.map_or(String::new(), |steer| steer.to_string());
             let direction = i8::from(p.direction);
-            let timing = match (p.speed, p.time) {
-                (Some(speed), Some(time)) => format!(",{speed},{time}"),
+            let cell = |value: Option<f64>| value.map_or(String::new(), |x| x.to_string());
+            let timing = match (is_timed, is_planned) {
+                (true, true) => format!(
+                    ",{},{},{},{}",
+                    cell(p.speed),
+                    cell(p.time),
+                    cell(p.acceleration),
+                    cell(p.steer_rate)
+                ),
+                (true, false) => format!(",{},{}", cell(p.speed), cell(p.time)),
                 _ => String::new(),
             };
             // Writing to a string does not fail.
@@ -155,6 +225,56 @@ impl PathDocument {
         }
         text
     }
+}
+
+/// Places that are this near count as one, meters.
+const SAME_PLACE_M: f64 = 1e-9;
+
+/// A pose with the times of a drive; without any where the drive ends before it.
+fn in_time(pose: &PoseRecord, timed: &TimedPath, vehicle: &Vehicle) -> PoseRecord {
+    let reached = Some(timed.reached(pose.s)).filter(|reached| reached.time_s.is_finite());
+    let rate_per_m2 = timed
+        .path()
+        .segment_at(pose.s)
+        .map_or(0.0, |(segment, _)| segment.curvature_rate_per_m2);
+    let steer_rate = reached
+        .zip(vehicle.wheelbase_m())
+        .map(|(reached, wheelbase_m)| {
+            steer_rate_rad_per_s(wheelbase_m, reached.speed_mps, pose.curvature, rate_per_m2)
+        });
+    PoseRecord {
+        speed: reached.map(|reached| reached.speed_mps),
+        time: reached.map(|reached| reached.time_s),
+        acceleration: reached.map(|reached| reached.acceleration_mps2),
+        steer_rate,
+        ..pose.clone()
+    }
+}
+
+/// A pose at a stop between two samples, of which the next is known.
+fn standing(path: &CurvePath, s_m: f64, next: &PoseRecord) -> PoseRecord {
+    let pose = path.pose_at(s_m);
+    let curvature = path
+        .segment_at(s_m)
+        .map_or(0.0, |(segment, driven_m)| segment.curvature_at(driven_m));
+    PoseRecord {
+        x: pose.x,
+        y: pose.y,
+        heading: wrap_angle(pose.heading),
+        s: s_m,
+        curvature,
+        ..next.clone()
+    }
+}
+
+/// A pose as it is reached, and as it is left.
+fn twice(pose: &PoseRecord, stop: Stop) -> [PoseRecord; 2] {
+    let at = |time| PoseRecord {
+        speed: Some(0.0),
+        time: Some(time),
+        ..pose.clone()
+    };
+    [at(stop.t_s), at(stop.t_s + stop.duration_s)]
 }
 
 /// The segments that begin with a change of gear, each with the index of the sample there.
@@ -172,7 +292,7 @@ fn after_cusps<'a>(
 /// Speed and time at each sample; none where the vehicle does not say how fast it drives.
 fn timed(path: &CurvePath, vehicle: &Vehicle, spacing: Spacing) -> Vec<TimedPose> {
     SpeedLimits::of(vehicle).map_or_else(Vec::new, |limits| {
-        SpeedProfile::new(path, vehicle, &limits, spacing).poses
+        fastest(path, vehicle, &limits, spacing).timed_poses(spacing)
     })
 }
 

@@ -1,6 +1,7 @@
 //! A path that stands in an answer of before, with what its certificate claims.
 
 use super::answer::{ANSWER_SCHEMA, EscapeRecord};
+use super::motion_record::MotionRecord;
 use super::path_document::{PathDocument, PoseRecord};
 use super::request_document::RequestDocument;
 use crate::geometry::{Pose2, angle_difference};
@@ -24,6 +25,8 @@ pub struct StoredPath {
     pub hashes: Option<CertificateHashes>,
     /// Numbers of its certificate, if it has one.
     pub numbers: Option<CertificateNumbers>,
+    /// The drive in time on record, if there is one.
+    pub motion: Option<MotionRecord>,
 }
 
 /// The numbers that a certificate claims about a path.
@@ -127,6 +130,7 @@ impl StoredPath {
             poses: stored.path.map(|path| path.poses).unwrap_or_default(),
             hashes,
             numbers,
+            motion: stored.motion,
         })
     }
 }
@@ -145,6 +149,7 @@ struct StoredAnswer {
     path: Option<PathDocument>,
     escape: Option<EscapeRecord>,
     certificate: Option<StoredCertificate>,
+    motion: Option<MotionRecord>,
     provenance: Option<StoredProvenance>,
 }
 

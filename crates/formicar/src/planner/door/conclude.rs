@@ -81,7 +81,7 @@ fn measured(
     let (least_m, goes_on) = (certificate.min_clearance_m, &mut || !limits.is_cancelled());
     let clearance = ClearanceSummary::new_while((obstacles, vehicle), path, least_m, goes_on);
     let reached = task.request().reached_goal(vehicle.motion(), path.end());
-    PathMetrics::new(path, vehicle, reached.goal, clearance)
+    PathMetrics::new(path, vehicle, reached.goal, clearance).with_travel_time(path, vehicle)
 }
 
 /// The reason where the judge has refused a path.
