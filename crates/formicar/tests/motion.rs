@@ -334,11 +334,11 @@ mod crossings {
         assert!(n_fastest > 30 && n_lattice > 60 && n_waits > 10);
     }
 
-    /// Seeds whose drives once broke a rule: one that begins in motion, and one with bounded jerk
-    /// where the whole path is closed for good.
+    /// Seeds whose drives once broke a rule: one that begins in motion, one with bounded jerk where
+    /// the whole path is closed for good, and one with both.
     #[test]
     fn drives_that_broke_a_rule_keep_it() {
-        for seed in [394, 1631] {
+        for seed in [394, 1631, 9569] {
             let crossing = crossing(seed);
             match crossing.plan() {
                 Ok(plan) => assert!(crossing.judge(&plan.timed).valid, "{seed}"),
