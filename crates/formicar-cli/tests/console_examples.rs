@@ -201,6 +201,8 @@ fn fill(folder: &Path) {
         let (block, _) = block.split_once("```").unwrap();
         fs::write(folder.join(file), block).unwrap();
     }
+    let crossing = root().join("docs/src/crossing.json");
+    fs::copy(crossing, folder.join("crossing.json")).unwrap();
     let steered = "wheelbase_m = 1.4\nwidth_m = 1.0\nfront_overhang_m = 0.3\n\
                    rear_overhang_m = 0.4\nmax_steer_deg = 40\n\
                    max_steer_rate_rad_per_s = 0.5\nspeed_mps = 1.0\n";
