@@ -108,6 +108,26 @@ pub const RECORD: &[&str] = &[
     "recording",
 ];
 
+/// Drives in simulation.
+pub const DRIVE: &[&str] = &[
+    "error",
+    "random",
+    "limits",
+    "solid",
+    "world",
+    "lidar",
+    "agents",
+    "contact",
+    "simulation",
+    "known_map",
+    "estimate",
+    "route",
+    "driver",
+    "record",
+    "run",
+    "picture",
+];
+
 /// The studio.
 pub const STUDIO: &[&str] = &[
     "options",

@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "a test suite: its helpers may fail")]
 
 use crate::{
-    CLI, Crate, LAB, LIBRARY, MAPPING, PYTHON, Purity, RECORD, STUDIO, circles, purity_faults,
-    rank_faults,
+    CLI, Crate, DRIVE, LAB, LIBRARY, MAPPING, PYTHON, Purity, RECORD, STUDIO, circles,
+    purity_faults, rank_faults,
 };
 use std::fs;
 use std::path::Path;
@@ -28,6 +28,11 @@ fn modules_of_the_command_line_use_only_modules_of_lower_rank() {
 #[test]
 fn modules_of_the_lab_use_only_modules_of_lower_rank() {
     report(&rank_faults(&Crate::read("formicar-lab"), LAB));
+}
+
+#[test]
+fn modules_of_drive_use_only_modules_of_lower_rank() {
+    report(&rank_faults(&Crate::read("formicar-drive"), DRIVE));
 }
 
 #[test]
@@ -60,6 +65,7 @@ fn files_do_not_use_each_other_in_circles() {
         "formicar",
         "formicar-cli",
         "formicar-lab",
+        "formicar-drive",
         "formicar-mapping",
         "formicar-py",
         "formicar-record",
@@ -81,6 +87,7 @@ fn the_libraries_do_not_touch_the_outside_world() {
         threads: "no file",
         clock: "no file",
     };
+    report(&purity_faults(&Crate::read("formicar-drive"), &nowhere));
     report(&purity_faults(&Crate::read("formicar-mapping"), &nowhere));
     report(&purity_faults(&Crate::read("formicar-record"), &nowhere));
 }

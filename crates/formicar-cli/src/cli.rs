@@ -1,5 +1,7 @@
 //! The command line: its commands, and the one that runs.
 
+#[cfg(feature = "drive")]
+use crate::commands::drive;
 #[cfg(feature = "mapping")]
 use crate::commands::locate;
 #[cfg(feature = "studio")]
@@ -52,6 +54,8 @@ impl Cli {
             Command::Plan(args) => plan::run(args, out),
             Command::Check(args) => check::run(args, out),
             Command::Track(args) => track::run(args, out),
+            #[cfg(feature = "drive")]
+            Command::Drive(args) => drive::run(args, out),
             #[cfg(feature = "lab")]
             Command::Bench(args) => bench::run(args, out),
             #[cfg(feature = "lab")]
@@ -97,6 +101,10 @@ enum Command {
     Check(check::CheckArgs),
     /// Drive a path in simulation; exit code 3 if the vehicle collides or does not arrive.
     Track(Box<track::TrackArgs>),
+    /// Drive a robot through a simulated world, which it senses; exit code 3 if it collides or does
+    /// not arrive.
+    #[cfg(feature = "drive")]
+    Drive(Box<drive::DriveArgs>),
     /// Run planners on scenarios, or a whole campaign, one process per run: results and a summary.
     #[cfg(feature = "lab")]
     Bench(Box<bench::BenchArgs>),

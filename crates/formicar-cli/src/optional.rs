@@ -9,7 +9,12 @@ struct Feature {
     commands: &'static [&'static str],
 }
 
-const FEATURES: [Feature; 4] = [
+const FEATURES: [Feature; 5] = [
+    Feature {
+        name: "drive",
+        is_built: cfg!(feature = "drive"),
+        commands: &["drive"],
+    },
     Feature {
         name: "lab",
         is_built: cfg!(feature = "lab"),

@@ -9,6 +9,8 @@ mod check;
 mod common;
 mod console_examples;
 mod demo;
+#[cfg(feature = "drive")]
+mod drive;
 mod lidar;
 mod map;
 mod motion;

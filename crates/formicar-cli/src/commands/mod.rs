@@ -7,6 +7,8 @@ pub(crate) mod check;
 pub(crate) mod compare;
 #[cfg(feature = "lab")]
 pub(crate) mod demo;
+#[cfg(feature = "drive")]
+pub(crate) mod drive;
 #[cfg(feature = "lab")]
 pub(crate) mod import;
 pub(crate) mod list;

@@ -92,6 +92,9 @@ impl World {
 
     /// The exact range of a ray along a unit vector; none where nothing is hit within `max_m`.
     pub fn range_m(&self, from: Point2, along: Point2, max_m: f64) -> Option<f64> {
+        if self.segments.is_empty() {
+            return None;
+        }
         let mut cell = (
             ((from.x - self.low.x) / CELL_M).floor() as i32,
             ((from.y - self.low.y) / CELL_M).floor() as i32,
@@ -151,6 +154,12 @@ impl World {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    #[test]
+    fn an_empty_world_has_nothing_to_hit() {
+        let (from, along) = (Point2::new(1.0, 2.0), Point2::unit(0.3));
+        assert_eq!(World::new(Vec::new()).range_m(from, along, 30.0), None);
+    }
 
     proptest! {
         #[test]

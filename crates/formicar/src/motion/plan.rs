@@ -178,6 +178,9 @@ struct Lead {
 
 impl Run<'_> {
     fn plan(&self, unhindered: TimedPath) -> Result<MotionPlan, MotionError> {
+        if self.is_alone() {
+            return Ok(self.undisturbed(unhindered));
+        }
         let (time_step_s, begin) = self.fitted()?;
         let distance_m = self.config.distance_m;
         let forbidden = Forbidden::new(
@@ -234,6 +237,23 @@ impl Run<'_> {
         let phases = lead.phases.into_iter().chain(phases).collect();
         let timed = TimedPath::new(self.problem.path.clone(), phases);
         Ok(self.found(timed, ProfileSource::Lattice, forbidden))
+    }
+
+    /// True where no lattice is needed: nothing moves, and the jerk is not bounded.
+    fn is_alone(&self) -> bool {
+        let is_smooth = self.config.limits.max_jerk_mps3.is_some();
+        !is_smooth && self.problem.predictions.obstacles().is_empty()
+    }
+
+    fn undisturbed(&self, timed: TimedPath) -> MotionPlan {
+        MotionPlan {
+            timed,
+            status: MotionStatus::Arrives,
+            source: ProfileSource::Fastest,
+            unhindered_s: self.unhindered_s,
+            regions: Vec::new(),
+            time_step_s: self.config.time_step_s,
+        }
     }
 
     /// The time step at which all layers fit into memory, and the beginning on its lattice.

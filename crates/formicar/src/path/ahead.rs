@@ -60,6 +60,7 @@ impl CurvePath {
                 let mut part = *segment;
                 if first_m > 0.0 {
                     part.start = segment.pose_at(first_m);
+                    part.curvature_per_m = segment.curvature_at(first_m);
                 }
                 part.length_m = last_m - first_m;
                 segments.push(part);
@@ -75,6 +76,18 @@ impl CurvePath {
 mod tests {
     use super::*;
     use crate::path::Direction;
+
+    #[test]
+    fn a_part_of_a_clothoid_is_on_the_clothoid() {
+        let mut path = CurvePath::new(Pose2::new(1.0, 1.0, 0.0));
+        path.push_clothoid([0.1, 0.9], 2.0, Direction::Forward);
+        let part = path.between_m(0.7, 1.9);
+        for s_m in [0.0, 0.5, 1.2] {
+            let (a, b) = (part.pose_at(s_m), path.pose_at(0.7 + s_m));
+            assert!(a.position().distance(b.position()) < 1e-9);
+            assert!((a.heading - b.heading).abs() < 1e-12);
+        }
+    }
 
     /// Ahead, about a bend, and back in reverse.
     fn path() -> CurvePath {

@@ -36,7 +36,7 @@ pub use swept_area::swept_area_m2;
 #[cfg(feature = "mpc")]
 pub use timed::ModelPredictive;
 pub use timed::{
-    Actuators, DriveCommand, DriveController, DriveLimits, DriveMoment, MpcParameters,
-    RegulatedPurePursuit, track_by, track_in_time,
+    ActuatedVehicle, Actuators, DriveCommand, DriveController, DriveLimits, DriveMoment,
+    FollowedState, Follower, MpcParameters, RegulatedPurePursuit, track_by, track_in_time,
 };
 pub use trace::{TracePoint, Tracking, TrackingStatus, TrackingSummary};

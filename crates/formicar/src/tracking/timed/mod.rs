@@ -4,8 +4,10 @@
 //! asks for a speed and a steering angle. The command takes effect after the delay of the actuators,
 //! which turn the wheels and change the speed no faster than they can.
 
+mod actuated;
 mod actuators;
 mod controller;
+mod follower;
 mod laws;
 #[cfg(feature = "mpc")]
 mod mpc;
@@ -15,8 +17,10 @@ mod qp;
 mod regulated;
 mod simulate;
 
+pub use actuated::ActuatedVehicle;
 pub use actuators::Actuators;
 pub use controller::{DriveCommand, DriveController, DriveLimits, DriveMoment};
+pub use follower::{FollowedState, Follower};
 #[cfg(feature = "mpc")]
 pub use mpc::ModelPredictive;
 pub use mpc_parameters::MpcParameters;

@@ -1,8 +1,9 @@
 //! The simulation in time: command, delay, actuators, roll.
 
-use super::controller::{DriveCommand, DriveController, DriveLimits, DriveMoment};
+use super::actuated::ActuatedVehicle;
+use super::controller::{DriveController, DriveLimits, DriveMoment};
 use super::laws::Scheduled;
-use crate::collision::{Body, ObstacleMap};
+use crate::collision::{Body, Drive, ObstacleMap};
 use crate::geometry::{Pose2, angle_difference};
 use crate::path::{CurvePath, CurveSegment, Direction, TimedPath};
 use crate::tracking::errors::{Errors, Offset};
@@ -13,7 +14,6 @@ use crate::tracking::{
     TrackingSummary,
 };
 use crate::vehicle::{AckermannAxles, BicycleState, Vehicle};
-use std::collections::VecDeque;
 use std::mem;
 
 /// Steps of the simulation in a control period.
@@ -91,13 +91,8 @@ pub fn track_by(
 struct Run<'a> {
     timed: &'a TimedPath,
     config: TrackingConfig,
-    limits: DriveLimits,
     axles: AckermannAxles,
-    state: BicycleState,
-    command: DriveCommand,
-    /// Commands with the times at which they take effect.
-    pending: VecDeque<(f64, DriveCommand)>,
-    t_s: f64,
+    vehicle: ActuatedVehicle,
     driven_m: f64,
     n_gear_changes: usize,
     saturated_m: f64,
@@ -143,26 +138,24 @@ impl<'a> Run<'a> {
         let rate = config.max_steer_rate_rad_per_s;
         let offset = config.start_offset;
         let beside = Pose2::new(offset.along_m, offset.lateral_m, offset.heading_rad);
+        let limits = DriveLimits {
+            wheelbase_m: axles.wheelbase_m,
+            max_steer_rad: (axles.wheelbase_m * vehicle.max_curvature_per_m()).atan(),
+            steer_rate_rad_per_s: rate.unwrap_or(f64::INFINITY),
+            acceleration_mps2,
+            braking_mps2: braking_mps2.unwrap_or(BRAKING_RATIO * acceleration_mps2),
+            delay_s: config.actuators.delay_s,
+            control_period_s: config.actuators.control_period_s,
+        };
+        let start = BicycleState {
+            pose: timed.path().start().compose(beside),
+            ..BicycleState::default()
+        };
         Ok(Self {
-            limits: DriveLimits {
-                wheelbase_m: axles.wheelbase_m,
-                max_steer_rad: (axles.wheelbase_m * vehicle.max_curvature_per_m()).atan(),
-                steer_rate_rad_per_s: rate.unwrap_or(f64::INFINITY),
-                acceleration_mps2,
-                braking_mps2: braking_mps2.unwrap_or(BRAKING_RATIO * acceleration_mps2),
-                delay_s: config.actuators.delay_s,
-                control_period_s: config.actuators.control_period_s,
-            },
             axles,
-            state: BicycleState {
-                pose: timed.path().start().compose(beside),
-                ..BicycleState::default()
-            },
+            vehicle: ActuatedVehicle::new(limits, start),
             timed,
             config,
-            command: DriveCommand::default(),
-            pending: VecDeque::new(),
-            t_s: 0.0,
             driven_m: 0.0,
             n_gear_changes: 0,
             saturated_m: 0.0,
@@ -182,7 +175,7 @@ impl<'a> Run<'a> {
         controller: &mut dyn DriveController,
     ) -> TrackingStatus {
         let Some(first) = stretches.first() else {
-            let offset = Offset::beside(self.timed.path().start(), self.state.pose);
+            let offset = Offset::beside(self.timed.path().start(), self.vehicle.state().pose);
             self.errors.add(&offset, 0.0);
             self.push(Direction::Forward, 0.0, &offset);
             return TrackingStatus::Arrived;
@@ -191,11 +184,12 @@ impl<'a> Run<'a> {
             stretch: first,
             begin_m: 0.0,
             driven_before_m: 0.0,
-            offset: Offset::new(first, self.state.pose, 0.0),
+            offset: Offset::new(first, self.vehicle.state().pose, 0.0),
         };
         // The wheels point along the path before the drive begins.
         let curvature_per_m = first.direction.sign() * first.curvature_at(0.0);
-        self.state.steer_rad = (self.limits.wheelbase_m * curvature_per_m).atan();
+        self.vehicle
+            .turn_wheels((self.axles.wheelbase_m * curvature_per_m).atan());
         self.errors.add(&leg.offset, 0.0);
         self.record(&leg);
         let mut at = 0;
@@ -204,7 +198,7 @@ impl<'a> Run<'a> {
             for _ in 0..N_SUBSTEPS {
                 self.step(&mut leg);
             }
-            if self.t_s >= self.next_record_s {
+            if self.vehicle.t_s() >= self.next_record_s {
                 self.record(&leg);
             }
             if let Some(status) = self.ending(&leg, at + 1 == stretches.len()) {
@@ -215,12 +209,12 @@ impl<'a> Run<'a> {
                 let begin_m = leg.begin_m + leg.stretch.length_m();
                 at += 1;
                 self.n_gear_changes = at;
-                self.stands_since_s = self.t_s;
+                self.stands_since_s = self.vehicle.t_s();
                 leg = Leg {
                     stretch: &stretches[at],
                     begin_m,
                     driven_before_m: self.driven_m,
-                    offset: Offset::new(&stretches[at], self.state.pose, 0.0),
+                    offset: Offset::new(&stretches[at], self.vehicle.state().pose, 0.0),
                 };
                 self.record(&leg);
             }
@@ -234,82 +228,55 @@ impl<'a> Run<'a> {
         controller: &mut dyn DriveController,
     ) {
         let clearance_m = eyes.map_or(f64::INFINITY, |(obstacles, body)| {
-            obstacles.clearance_m(body, obstacles.frame().to_grid(self.state.pose))
+            obstacles.clearance_m(body, obstacles.frame().to_grid(self.vehicle.state().pose))
         });
-        let pending: Vec<_> = self.pending.iter().map(|(_, command)| *command).collect();
+        let pending = self.vehicle.pending();
         let command = controller.command(&DriveMoment {
-            t_s: self.t_s,
-            state: self.state,
+            t_s: self.vehicle.t_s(),
+            state: self.vehicle.state(),
             pending: &pending,
             reference: self.timed,
             s_m: leg.s_m(),
             stretch_m: [leg.begin_m, leg.begin_m + leg.stretch.length_m()],
             direction: leg.stretch.direction,
             clearance_m,
-            limits: self.limits,
+            limits: *self.vehicle.limits(),
             stretch: leg.stretch,
             foot_m: leg.offset.foot_m,
             driven_m: self.driven_m - leg.driven_before_m,
         });
-        self.pending
-            .push_back((self.t_s + self.limits.delay_s, command));
+        self.vehicle.give(command);
     }
 
     /// A step of the simulation: the wheels are held while the vehicle rolls.
     fn step(&mut self, leg: &mut Leg) {
-        /// Times that differ by less are one, seconds.
-        const SAME_S: f64 = 1e-9;
-        let duration_s = self.limits.control_period_s / f64::from(N_SUBSTEPS);
-        while let Some((since_s, command)) = self.pending.front().copied() {
-            if since_s > self.t_s + SAME_S {
-                break;
-            }
-            self.command = command;
-            self.pending.pop_front();
+        let limits = *self.vehicle.limits();
+        let drive = self
+            .vehicle
+            .step(limits.control_period_s / f64::from(N_SUBSTEPS));
+        let signed_m = drive.signed_length_m;
+        self.roll(&drive);
+        let state = self.vehicle.state();
+        if state.speed_mps.abs() > STANDS_MPS {
+            self.stands_since_s = self.vehicle.t_s();
         }
-        let limit = self.limits.max_steer_rad;
-        let most_rad = self.limits.steer_rate_rad_per_s * duration_s;
-        let now = self.state.steer_rad;
-        let steer_rad = self.command.steer_rad.clamp(-limit, limit);
-        self.state.steer_rad = steer_rad.clamp(now - most_rad, now + most_rad);
-        let before_mps = self.state.speed_mps;
-        self.state.speed_mps = self.changed_speed_mps(duration_s);
-        let signed_m = 0.5 * (before_mps + self.state.speed_mps) * duration_s;
-        self.roll(signed_m);
-        self.t_s += duration_s;
-        if self.state.speed_mps.abs() > STANDS_MPS {
-            self.stands_since_s = self.t_s;
-        }
-        leg.offset = Offset::new(leg.stretch, self.state.pose, leg.offset.foot_m);
+        leg.offset = Offset::new(leg.stretch, state.pose, leg.offset.foot_m);
         self.errors.add(&leg.offset, signed_m.abs());
-        if self.command.steer_rad.abs() > limit * 1.01 {
+        let asked_rad = self.vehicle.command().steer_rad.abs();
+        if asked_rad > limits.max_steer_rad * 1.01 {
             self.saturated_m += signed_m.abs();
         }
     }
 
-    /// The speed after a step toward the one asked for.
-    fn changed_speed_mps(&self, duration_s: f64) -> f64 {
-        let (now, asked) = (self.state.speed_mps, self.command.speed_mps);
-        let brakes = asked.abs() < now.abs() || asked * now < 0.0;
-        let rate = if brakes {
-            self.limits.braking_mps2
-        } else {
-            self.limits.acceleration_mps2
-        };
-        let next = asked.clamp(now - rate * duration_s, now + rate * duration_s);
-        // Between the gears the vehicle stands for a moment.
-        if next * now < 0.0 { 0.0 } else { next }
-    }
-
-    fn roll(&mut self, signed_m: f64) {
+    fn roll(&mut self, drive: &Drive) {
+        let signed_m = drive.signed_length_m;
         if signed_m == 0.0 {
             return;
         }
-        let start = self.state.pose;
-        let curvature_per_m = self.state.steer_rad.tan() / self.limits.wheelbase_m;
-        self.state.pose = start.advance(curvature_per_m, signed_m);
+        let (start, curvature_per_m) = (drive.start, drive.curvature_per_m);
         self.driven_m += signed_m.abs();
-        self.most_steer_rad = self.most_steer_rad.max(self.state.steer_rad.abs());
+        let steer_rad = self.vehicle.state().steer_rad;
+        self.most_steer_rad = self.most_steer_rad.max(steer_rad.abs());
         let direction = if signed_m > 0.0 {
             Direction::Forward
         } else {
@@ -332,20 +299,20 @@ impl<'a> Run<'a> {
     }
 
     fn is_at_end(&self, leg: &Leg) -> bool {
-        let stands = self.state.speed_mps.abs() < STANDS_MPS;
+        let stands = self.vehicle.state().speed_mps.abs() < STANDS_MPS;
         let left_m = leg.left_m(f64::INFINITY);
         stands && (left_m < END_M || self.is_late_and_stands() && left_m < 10.0 * END_M)
     }
 
     fn is_late_and_stands(&self) -> bool {
-        self.t_s - self.stands_since_s > PATIENCE_S
+        self.vehicle.t_s() - self.stands_since_s > PATIENCE_S
     }
 
     fn ending(&self, leg: &Leg, is_last: bool) -> Option<TrackingStatus> {
         let end = self.timed.end();
-        let stands = self.state.speed_mps.abs() < STANDS_MPS;
+        let stands = self.vehicle.state().speed_mps.abs() < STANDS_MPS;
         let is_there = leg.left_m(end.s_m) < END_M;
-        let is_over = self.t_s >= end.t_s;
+        let is_over = self.vehicle.t_s() >= end.t_s;
         let ends_here = is_last || end.s_m <= leg.begin_m + leg.stretch.length_m();
         if ends_here && is_over && stands && (is_there || self.is_late_and_stands()) {
             return Some(TrackingStatus::Arrived);
@@ -353,7 +320,7 @@ impl<'a> Run<'a> {
         if leg.offset.cross_track_m.abs() > self.config.give_up_error_m {
             return Some(TrackingStatus::LeftPath);
         }
-        let is_long = self.t_s > GIVE_UP_RATIO * end.t_s + GIVE_UP_S;
+        let is_long = self.vehicle.t_s() > GIVE_UP_RATIO * end.t_s + GIVE_UP_S;
         is_long.then_some(TrackingStatus::GaveUp)
     }
 
@@ -362,25 +329,27 @@ impl<'a> Run<'a> {
     }
 
     fn push(&mut self, direction: Direction, s_m: f64, offset: &Offset) {
-        let (left_wheel_rad, right_wheel_rad) = self.axles.front_wheel_angles(self.state.steer_rad);
+        let (left_wheel_rad, right_wheel_rad) = self
+            .axles
+            .front_wheel_angles(self.vehicle.state().steer_rad);
         let point = TracePoint {
-            t_s: self.t_s,
+            t_s: self.vehicle.t_s(),
             driven_m: self.driven_m,
             s_m,
-            pose: self.state.pose.wrapped(),
+            pose: self.vehicle.state().pose.wrapped(),
             direction,
-            steer_rad: self.state.steer_rad,
+            steer_rad: self.vehicle.state().steer_rad,
             left_wheel_rad,
             right_wheel_rad,
             cross_track_error_m: offset.cross_track_m,
             heading_error_rad: offset.heading_rad,
-            speed_mps: Some(self.state.speed_mps),
+            speed_mps: Some(self.vehicle.state().speed_mps),
         };
         if self.trace.last() != Some(&point) {
             self.trace.push(point);
         }
-        let half_s = 0.5 * self.limits.control_period_s;
-        self.next_record_s = self.t_s + self.config.record_interval_s - half_s;
+        let half_s = 0.5 * self.vehicle.limits().control_period_s;
+        self.next_record_s = self.vehicle.t_s() + self.config.record_interval_s - half_s;
     }
 
     fn conclude(
@@ -389,9 +358,12 @@ impl<'a> Run<'a> {
         status: TrackingStatus,
         n_controller_failures: usize,
     ) -> Tracking {
-        let first = self.driven.first().map_or(self.state.pose, |s| s.start);
+        let first = self
+            .driven
+            .first()
+            .map_or(self.vehicle.state().pose, |s| s.start);
         let driven = CurvePath::from_segments(first, mem::take(&mut self.driven));
-        let (last, goal) = (self.state.pose, self.timed.path().end());
+        let (last, goal) = (self.vehicle.state().pose, self.timed.path().end());
         let (rms_cross_track_error_m, rms_heading_error_rad) = self.errors.rms();
         let (left, right) = self.axles.front_wheel_angles(self.most_steer_rad);
         let share = if self.driven_m > 0.0 {
@@ -402,7 +374,7 @@ impl<'a> Run<'a> {
         Tracking {
             status,
             summary: TrackingSummary {
-                duration_s: self.t_s,
+                duration_s: self.vehicle.t_s(),
                 driven_m: self.driven_m,
                 n_gear_changes: self.n_gear_changes,
                 max_cross_track_error_m: self.errors.max_cross_track_m,
