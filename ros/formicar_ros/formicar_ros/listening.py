@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -27,6 +28,7 @@ class Listening:
         self._on_map = on_map
         self._fixed = node.value("global_frame").lstrip("/")
         self._subscriptions: list[Any] = []
+        self._reported: dict[str, float] = {}
         self._hear_map()
         self._hear_transforms()
 
@@ -107,4 +109,9 @@ class Listening:
             )
 
     def _report(self, sentence: str) -> None:
-        self._node.get_logger().error(sentence, throttle_duration_sec=_REPORT_S)
+        """Log an error, and the same one not again for a while."""
+        now = time.monotonic()
+        self._reported = {s: t for s, t in self._reported.items() if now - t < _REPORT_S}
+        if sentence not in self._reported:
+            self._reported[sentence] = now
+            self._node.get_logger().error(sentence)

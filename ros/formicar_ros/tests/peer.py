@@ -79,7 +79,12 @@ class Peer:
         publisher.publish(message)
 
     def send_tf(
-        self, parent: str, child: str, pose: tuple[float, float, float], *, age_s: float = 0.0,
+        self,
+        parent: str,
+        child: str,
+        pose: tuple[float, float, float],
+        *,
+        age_s: float = 0.0,
         is_static: bool = False,
     ) -> None:
         stamped = TransformStamped(child_frame_id=child)
@@ -215,8 +220,11 @@ def map_message(cells: np.ndarray, resolution: float, **changes: Any) -> Occupan
 def rows(path: Path) -> np.ndarray:
     """Return the rows ``x, y, yaw`` of a path."""
     found = [
-        (p.pose.position.x, p.pose.position.y,
-         2.0 * math.atan2(p.pose.orientation.z, p.pose.orientation.w))
+        (
+            p.pose.position.x,
+            p.pose.position.y,
+            2.0 * math.atan2(p.pose.orientation.z, p.pose.orientation.w),
+        )
         for p in path.poses
     ]
     return np.array(found).reshape(-1, 3)

@@ -43,11 +43,19 @@ def test_deactivation_ends_a_goal(world: World) -> None:
     [
         ({"vehicle__preset": None}, "nothing says which it is"),
         ({"vehicle__preset": "tank"}, "tank"),
-        ({"vehicle__preset": None, "footprint": "'[[0.0, 0.0], [1.0, 1.0]]'",
-          "minimum_turning_radius": 1.0}, "at least 3 points, got 2"),
+        (
+            {
+                "vehicle__preset": None,
+                "footprint": "'[[0.0, 0.0], [1.0, 1.0]]'",
+                "minimum_turning_radius": 1.0,
+            },
+            "at least 3 points, got 2",
+        ),
         ({"vehicle__preset": None, "footprint": "'[[0.0, 0.0], oh]'"}, "expected corners"),
-        ({"vehicle__preset": None, "footprint": "'[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]'"},
-         "without a turning radius"),
+        (
+            {"vehicle__preset": None, "footprint": "'[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]'"},
+            "without a turning radius",
+        ),
         ({"footprint": "'[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]'"}, "both"),
         ({"GridBased__hybrid_astar__weight": 0.1}, "it must be in 1 to 10"),
         ({"GridBased__planner": "smac"}, "smac"),
@@ -92,7 +100,7 @@ def test_parameters_change_plans_and_are_refused_in_our_words(world: World) -> N
         ("map_topic", "other", "hint: clean up, set it, configure"),
         ("GridBased.planner", "astar", "hint: clean up, set it, configure"),
         ("vehicle.preset", "tank", "tank"),
-        ("vehicle.width_m", 0.5, "leave one of them out"),
+        ("vehicle.width_m", 0.5, "both vehicle.preset and vehicle's measures are given"),
     ):
         refused = peer.set(name, value)
         assert not refused.successful and words in refused.reason, (name, refused.reason)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import formicar
 import numpy as np
 import pytest
@@ -101,11 +103,12 @@ def test_maps_that_are_none_are_reported_and_the_former_one_stays(world: World) 
         ("frame 'moon'", {"frame": "moon"}),
     ]
     for words, changes in bad:
-        peer.send_map(hall(), **changes)  # type: ignore[arg-type]
-        wait_until(lambda words=words: server.said(words) or True, words)
-    wait_until(lambda: server.said("map:"), "a report")
+        peer.send_map(hall(), **changes)
+        wait_until(partial(server.said, words), words)
     peer.send_update(np.full((2, 2), 100, dtype=np.int8), 119, 79)
+    wait_until(partial(server.said, "reaches off the map"), "a report")
     peer.send_update(np.full((2, 2), 101, dtype=np.int8), 1, 1)
+    wait_until(partial(server.said, "values from 101 to 101"), "a report")
     assert peer.plan(GOAL, start=START).status == SUCCEEDED
     assert server.is_alive
 
@@ -159,7 +162,8 @@ def test_a_path_is_judged_with_the_poses_that_collide(shared: World) -> None:
     assert not answer.is_valid
     grid = formicar.OccupancyGrid(hall(), 0.1)
     alone = {
-        n for n, row in enumerate(straight)
+        n
+        for n, row in enumerate(straight)
         if not formicar.check(row[None, :], grid, "warehouse_amr")
     }
     found = set(answer.invalid_pose_indices)
