@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 from typing import Any
 
 from rcl_interfaces.msg import SetParametersResult
@@ -54,6 +55,7 @@ class ParameterNode(LifecycleNode):  # type: ignore[misc]
         declared: list[Declaration] = []
         for plugin in plugins:
             declared += self._declare_plugin(plugin)
+        self._name_unknown()
         self._settings = settings_of(self._values(), self._config_keys)
         # Ranges come last, so that formicar is asked first about values from a file.
         for name, _, descriptor in declared:
@@ -82,6 +84,16 @@ class ParameterNode(LifecycleNode):  # type: ignore[misc]
                 plain = type(descriptor)(dynamic_typing=True)
                 self.declare_parameter(name, default, plain)
         return declarations
+
+    def _name_unknown(self) -> None:
+        """Warn of parameters in a file or on the command line that nobody has declared."""
+        given = getattr(self, "_parameter_overrides", {})
+        known = [name for name in self._values() if name not in given]
+        for name in given:
+            if not self.has_parameter(name):
+                near = difflib.get_close_matches(name, known, n=1)
+                hint = f"; hint: {near[0]}" if near else ""
+                self.get_logger().warning(f"no parameter is named {name}; it is ignored{hint}")
 
     def _undeclare_others(self, plugin: str, kept: set[str]) -> None:
         """Forget the parameters of a planner that stood behind this name before."""

@@ -31,14 +31,15 @@ ACCEPTED, EXECUTING, SUCCEEDED, CANCELED, ABORTED = 1, 2, 4, 5, 6
 
 
 class Peer:
-    def __init__(self, domain: int) -> None:
+    def __init__(self, domain: int, *, is_threaded: bool = True) -> None:
         self.context = rclpy.Context()
         rclpy.init(context=self.context, domain_id=domain)
         self.node = rclpy.create_node(f"peer_{domain}", context=self.context)
         self.executor = SingleThreadedExecutor(context=self.context)
         self.executor.add_node(self.node)
         self.thread = threading.Thread(target=self._spin, daemon=True)
-        self.thread.start()
+        if is_threaded:
+            self.thread.start()
         self._publishers: dict[str, Any] = {}
         self._clients: dict[str, Any] = {}
         self.to_pose = ActionClient(self.node, ComputePathToPose, "compute_path_to_pose")
@@ -54,7 +55,8 @@ class Peer:
 
     def close(self) -> None:
         self.executor.shutdown()
-        self.thread.join(5.0)
+        if self.thread.ident is not None:
+            self.thread.join(5.0)
         self.node.destroy_node()
         rclpy.try_shutdown(context=self.context)
 
@@ -121,7 +123,9 @@ class Peer:
 
     def send(self, client: ActionClient, goal: Any) -> Any:
         assert client.wait_for_server(PATIENCE_S), "no action server"
-        return self.result(client.send_goal_async(goal))
+        # On the thread that spins: an answer that is quicker than the sender would be dropped.
+        sending = self.executor.create_task(client.send_goal_async, goal)
+        return self.result(self.result(sending))
 
     def plan(self, goal: Any, **how: Any) -> Any:
         """Ask for a path to a pose, and return status and result."""

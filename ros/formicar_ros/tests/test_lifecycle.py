@@ -113,6 +113,12 @@ def test_parameters_change_plans_and_are_refused_in_our_words(world: World) -> N
     assert peer.plan(GOAL, start=START).status == SUCCEEDED
 
 
+def test_a_parameter_that_nobody_knows_is_named_with_the_nearest_one(world: World) -> None:
+    server = world.start(GridBased__hybrid_astar__wieght=2.0)
+    words = "GridBased.hybrid_astar.wieght; it is ignored; hint: GridBased.hybrid_astar.weight"
+    wait_until(lambda: server.said(words), words)
+
+
 def test_two_planners_have_names_and_parameters_of_their_own(world: World) -> None:
     world.start(planner_plugins="[Fine, Quick]", Quick__planner="hybrid-astar")
     world.peer.send_map(hall())
