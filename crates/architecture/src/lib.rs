@@ -11,7 +11,7 @@ mod source;
 
 pub use circles::circles;
 pub use purity::{Purity, purity_faults};
-pub use ranks::{CLI, DRIVE, LAB, LIBRARY, MAPPING, PYTHON, STUDIO, rank_faults};
+pub use ranks::{CLI, DRIVE, LAB, LIBRARY, MAPPING, PYTHON, RECORD, STUDIO, rank_faults};
 pub use source::{Crate, File};
 
 #[cfg(test)]

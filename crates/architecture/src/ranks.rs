@@ -36,6 +36,7 @@ pub const CLI: &[&str] = &[
     "optional",
     "files",
     "values",
+    "bag",
     "output",
     "settings",
     "scene",
@@ -90,6 +91,23 @@ pub const MAPPING: &[&str] = &[
     "report",
 ];
 
+/// Bags of ROS 2.
+pub const RECORD: &[&str] = &[
+    "messages",
+    "cdr",
+    "error",
+    "foreign",
+    "topic",
+    "walk",
+    "qos",
+    "writer",
+    "bag",
+    "frames",
+    "grid",
+    "log",
+    "recording",
+];
+
 /// Drives in simulation.
 pub const DRIVE: &[&str] = &[
     "error",
@@ -138,6 +156,9 @@ pub const PYTHON: &[&str] = &[
     "vehicle",
     "cells",
     "grid",
+    "lidar_log",
+    "mapper",
+    "localizer",
     "scenarios",
     "pictures",
     "observe",

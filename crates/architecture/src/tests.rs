@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "a test suite: its helpers may fail")]
 
 use crate::{
-    CLI, Crate, DRIVE, LAB, LIBRARY, MAPPING, PYTHON, Purity, STUDIO, circles, purity_faults,
-    rank_faults,
+    CLI, Crate, DRIVE, LAB, LIBRARY, MAPPING, PYTHON, Purity, RECORD, STUDIO, circles,
+    purity_faults, rank_faults,
 };
 use std::fs;
 use std::path::Path;
@@ -41,6 +41,11 @@ fn modules_of_mapping_use_only_modules_of_lower_rank() {
 }
 
 #[test]
+fn modules_of_bags_use_only_modules_of_lower_rank() {
+    report(&rank_faults(&Crate::read("formicar-record"), RECORD));
+}
+
+#[test]
 fn modules_of_the_studio_use_only_modules_of_lower_rank() {
     report(&rank_faults(&Crate::read("formicar-studio"), STUDIO));
 }
@@ -63,6 +68,7 @@ fn files_do_not_use_each_other_in_circles() {
         "formicar-drive",
         "formicar-mapping",
         "formicar-py",
+        "formicar-record",
         "formicar-studio",
     ];
     let found = crates.iter().flat_map(|name| {
@@ -83,6 +89,7 @@ fn the_libraries_do_not_touch_the_outside_world() {
     };
     report(&purity_faults(&Crate::read("formicar-drive"), &nowhere));
     report(&purity_faults(&Crate::read("formicar-mapping"), &nowhere));
+    report(&purity_faults(&Crate::read("formicar-record"), &nowhere));
 }
 
 #[test]

@@ -7,6 +7,7 @@
 //! results that are worse than required.
 
 mod ants;
+mod bag;
 mod cli;
 mod commands;
 mod failure;

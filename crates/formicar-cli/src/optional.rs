@@ -9,7 +9,7 @@ struct Feature {
     commands: &'static [&'static str],
 }
 
-const FEATURES: [Feature; 4] = [
+const FEATURES: [Feature; 5] = [
     Feature {
         name: "drive",
         is_built: cfg!(feature = "drive"),
@@ -33,6 +33,11 @@ const FEATURES: [Feature; 4] = [
         name: "mapping",
         is_built: cfg!(feature = "mapping"),
         commands: &["locate", "build", "evaluate"],
+    },
+    Feature {
+        name: "record",
+        is_built: cfg!(feature = "record"),
+        commands: &["plan --record"],
     },
     Feature {
         name: "studio",

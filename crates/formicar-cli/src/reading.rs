@@ -1,13 +1,20 @@
-//! Configurations, vehicles and campaigns as this command reads them, for other front ends.
+//! Configurations, vehicles, campaigns and lidar logs as this command reads them, for other front
+//! ends.
 
 #[cfg(feature = "lab")]
 use crate::commands::{bench, machine};
+#[cfg(feature = "mapping")]
+use crate::lidar;
 use crate::{scene, settings};
 use anyhow::Result;
+#[cfg(feature = "mapping")]
+use formicar::Pose2;
 use formicar::planner::PlannerConfig;
 use formicar::vehicle::{Motion, Vehicle};
 #[cfg(feature = "lab")]
 use formicar_lab::{campaign::Campaign, run::Sources};
+#[cfg(feature = "mapping")]
+use formicar_mapping::Log;
 use std::path::Path;
 use toml::Table;
 
@@ -39,6 +46,36 @@ pub fn planner_keys() -> Vec<String> {
 /// A name that no vehicle has, a file that cannot be read, or measures that cannot be.
 pub fn vehicle(name: &str) -> Result<Vehicle> {
     Ok(scene::vehicle(name)?.vehicle)
+}
+
+/// What a log takes out of a bag, where the bag leaves a choice or a gap: `--scan-topic`,
+/// `--odom-topic`, `--laser-pose` and `--no-odometry`.
+#[cfg(feature = "mapping")]
+#[derive(Clone, Debug, Default)]
+pub struct BagChoice {
+    /// The topic of the scans.
+    pub scan_topic: Option<String>,
+    /// The topic of the odometry.
+    pub odom_topic: Option<String>,
+    /// The laser's pose on the robot.
+    pub laser_pose: Option<Pose2>,
+    /// Whether the odometry is left out, and with it the laser's place on the robot.
+    pub no_odometry: bool,
+}
+
+/// A lidar log: a bag of ROS 2, or a file in the format of CARMEN.
+///
+/// # Errors
+/// What is wrong with the file, or a choice for a log that has none.
+#[cfg(feature = "mapping")]
+pub fn lidar_log(path: &Path, choice: BagChoice) -> Result<Log> {
+    let args = lidar::LogArgs {
+        scan_topic: choice.scan_topic,
+        odom_topic: choice.odom_topic,
+        laser_pose: choice.laser_pose,
+        no_odometry: choice.no_odometry,
+    };
+    lidar::log(path, &args)
 }
 
 /// The runs of a campaign file; names of files in it are relative to its folder.

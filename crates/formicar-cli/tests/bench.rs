@@ -132,7 +132,7 @@ fn a_killed_bench_goes_on_where_it_stopped() {
     assert_eq!(room.read("out/results.csv"), again);
     room.write("out/results.csv", again.replace(",found,", ",found\n,"));
     fs::remove_file(room.path("out/results.sqlite")).unwrap();
-    bench(&room, &[]).assert_refused(&["results.csv", "no row of 54 values"]);
+    bench(&room, &[]).assert_refused(&["results.csv", "no row of 58 values"]);
 }
 
 #[test]
@@ -313,4 +313,48 @@ fn ablations_stand_beside_the_whole() {
         "o",
     ];
     assert_eq!(room.run(&both).code, 2);
+}
+
+#[test]
+fn worlds_of_barn_are_scenarios_for_any_vehicle() {
+    let room = Room::new();
+    room.write(
+        "barn.json",
+        r#"{"radius_m": 0.075, "start": [0, 0, 0], "goal": [4, 0, 0],
+            "worlds": {"12": [[2, 1]], "3": [[2, 0]], "7": []}}"#,
+    );
+    let args = [
+        "bench",
+        "barn.json",
+        "--planners",
+        "hybrid-astar",
+        "--limit",
+        "2",
+    ];
+    for (out, vehicle) in [
+        ("small", &[][..]),
+        ("large", &["--vehicle", "warehouse_amr"]),
+    ] {
+        let run = room.run(&[&args[..], &["--out", out], vehicle].concat());
+        assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    }
+    let lengths = ["small", "large"].map(|out| {
+        let table = Table::of(&room.read(&format!("{out}/results.csv")));
+        assert_eq!(table.rows.len(), 2);
+        assert_eq!(
+            [table.get(0, "scenario"), table.get(1, "scenario")],
+            ["barn-003", "barn-012"]
+        );
+        assert_eq!(table.get(0, "valid"), "true");
+        table.get(0, "length_m").parse::<f64>().unwrap()
+    });
+    // Around the cylinder in the way: the larger vehicle drives farther.
+    assert!(4.0 < lengths[0] && lengths[0] < lengths[1], "{lengths:?}");
+    let missing = room.run(&["bench", "no/barn.json", "--out", "none"]);
+    assert_eq!(missing.code, 2);
+    assert!(
+        missing.stderr.contains("no/barn.json cannot be read"),
+        "{}",
+        missing.stderr
+    );
 }

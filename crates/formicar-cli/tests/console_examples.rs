@@ -28,7 +28,7 @@ enum Treatment {
 }
 
 /// The exceptions: what a command contains, its treatment and the reason.
-const EXCEPTIONS: [(&str, Treatment, &str); 26] = [
+const EXCEPTIONS: [(&str, Treatment, &str); 28] = [
     (
         "formicar drive",
         Treatment::Slow,
@@ -56,6 +56,8 @@ const EXCEPTIONS: [(&str, Treatment, &str); 26] = [
         "lidar logs are data of others",
     ),
     ("locate", Treatment::Flags, "lidar logs are data of others"),
+    ("drive.mcap", Treatment::Flags, "bags are data of others"),
+    ("ros2 ", Treatment::Skip, "ROS"),
     ("cars", Treatment::Flags, "car scenarios are data of others"),
     (
         "CaseN.csv",
@@ -204,6 +206,8 @@ fn fill(folder: &Path) {
         let (block, _) = block.split_once("```").unwrap();
         fs::write(folder.join(file), block).unwrap();
     }
+    let crossing = root().join("docs/src/crossing.json");
+    fs::copy(crossing, folder.join("crossing.json")).unwrap();
     let steered = "wheelbase_m = 1.4\nwidth_m = 1.0\nfront_overhang_m = 0.3\n\
                    rear_overhang_m = 0.4\nmax_steer_deg = 40\n\
                    max_steer_rate_rad_per_s = 0.5\nspeed_mps = 1.0\n";

@@ -110,9 +110,22 @@ fn bad_logs_and_names_are_refused_before_anything_is_written() {
     build("missing.log", "a.yaml").assert_refused(&["missing.log"]);
     build("empty.log", "a.jpg").assert_refused(&["a.jpg", ".yaml"]);
     room.write("x.db3", "SQLite");
-    build("x.db3", "a.yaml").assert_refused(&["x.db3", "FLASER"]);
-    room.write("x.bag", "#ROSBAG");
-    build("x.bag", "a.yaml").assert_refused(&["x.bag", "FLASER"]);
+    build("x.db3", "a.yaml").assert_refused(&["x.db3", "MCAP"]);
+    room.write("x.bag", "#ROSBAG V2.0");
+    build("x.bag", "a.yaml").assert_refused(&["x.bag", "rosbags-convert --src x.bag --dst x"]);
+    room.write("x.mcap", "\u{1}");
+    build("x.mcap", "a.yaml").assert_refused(&["x.mcap", "MCAP"]);
+    let flags = [
+        "map",
+        "build",
+        "empty.log",
+        "--out",
+        "a.yaml",
+        "--scan-topic",
+        "/scan",
+    ];
+    room.run(&flags)
+        .assert_refused(&["--scan-topic", "no topics"]);
     let jump = format!(
         "{}{}",
         log(),

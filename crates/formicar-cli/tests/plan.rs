@@ -644,3 +644,32 @@ fn a_budget_ends_a_run_by_default_and_none_lifts_it() {
             .assert_refused(&[bad, "steps", "none"]);
     }
 }
+
+#[test]
+fn a_plan_is_recorded_and_its_map_planned_on_again() {
+    let room = Room::new();
+    let plan = |map: &str, more: &[&str]| {
+        let ends = ["--start", "2,2,0", "--goal", "9,2,0", "--json"];
+        room.run(&[&["plan", "--map", map], &ends[..], more].concat())
+    };
+    let from_file = plan("room.yaml", &["--record", "plan.mcap"]).json();
+    let segments = |answer: &Value| answer["path"]["segments"].clone();
+    for map in ["plan.mcap", "plan.mcap:/map", "plan.mcap:map@0"] {
+        let from_bag = plan(map, &[]).json();
+        assert_eq!(segments(&from_bag), segments(&from_file), "{map}");
+        assert_eq!(from_bag["provenance"]["map"]["name"], map);
+    }
+    plan("plan.mcap:/plan", &[]).assert_refused(&["/plan has messages of type nav_msgs/msg/Path"]);
+    plan("plan.mcap", &["--resolution", "1"]).assert_refused(&["their own resolution"]);
+    plan("room.yaml", &["--record", "plan.bag"]).assert_refused(&["plan.bag", ".mcap"]);
+    let blocked = ["--goal", "9,2,0", "--budget", "1", "--record", "none.mcap"];
+    let run = room.run(
+        &[
+            &["plan", "--map", "room.yaml", "--start", "2,2,0"],
+            &blocked[..],
+        ]
+        .concat(),
+    );
+    assert_eq!(run.code, 3, "{}", run.stdout);
+    assert!(!room.path("none.mcap").exists());
+}

@@ -71,6 +71,41 @@ fn room_of_programs() -> Room {
 }
 
 #[test]
+fn every_path_that_a_program_shows_is_judged() {
+    let room = Room::new();
+    room.write("s.json", SCENARIO);
+    let straight = "[[2, 4, 0], [3, 4, 0], [5, 4, 0]]";
+    // The first path cannot be driven, the two after it can.
+    let course = format!(
+        ", \"improvements\": [[0.001, 9], [0.002, 8], [0.003, 3]], \"first_feasible_s\": 0.001, \
+         \"improvements_cpu_s\": [0.0005, 0.001, 0.002], \
+         \"earlier_poses\": [[[2, 4, 0], [3, 5, 1.5], [5, 4, 0]], {straight}]"
+    );
+    room.write("shows.sh", found(straight, &course));
+    let program = planner("shows", "\"sh\", \"shows.sh\"");
+    room.write(
+        "c.toml",
+        format!("[[scenarios]]\nfile = \"s.json\"\n{program}"),
+    );
+    let run = room.run(&["bench", "c.toml", "--store", "s.sqlite"]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    let row = &rows(&room.read("s.csv"))["shows"];
+    let columns = [
+        "first_feasible_s",
+        "first_feasible_cpu_s",
+        "first_length_m",
+        "length_0.1s_m",
+    ];
+    assert_eq!(
+        columns.map(|column| row[column].as_str()),
+        ["0.002", "0.001", "3.0", "3.0"]
+    );
+    assert_eq!(room.run(&["report", "s.sqlite", "--out", "page"]).code, 0);
+    let page = room.read("page/summary.md");
+    assert!(page.contains("| shows | 1.0000 | 1.0000 |"), "{page}");
+}
+
+#[test]
 fn paths_of_programs_are_judged_and_tabled_beside_ours() {
     let room = room_of_programs();
     let run = room.run(&["bench", "c.toml", "--store", "s.sqlite"]);

@@ -128,6 +128,15 @@ pub enum MappingError {
         /// A hint.
         hint: String,
     },
+    /// A log that begins somewhere else than in the map.
+    #[error(
+        "the first {n_scans} scans of the log are found nowhere in the map; hint: --start X,Y,H \
+         says where the drive begins, or the log belongs to another map"
+    )]
+    NotInMap {
+        /// Number of scans that were searched.
+        n_scans: usize,
+    },
     /// A map larger than can be kept.
     #[error(
         "the map would be {width_m:.0} x {height_m:.0} m at {resolution_m} m per cell; at most \

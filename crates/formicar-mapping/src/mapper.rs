@@ -308,14 +308,8 @@ impl Mapper {
             }
         }
         progress(Progress::Occupancy);
-        let field = whole_map(nodes, &poses, &self.config);
-        let mut counts = RayCounts::new(self.config.resolution_m);
-        for (node, &pose) in nodes.iter().zip(&poses) {
-            counts.add(&node.sweep, pose, self.config.occupancy.reach_m);
-        }
-        let grid = occupancy_grid(&counts, &field, &self.config.occupancy)?;
+        let (grid, field, map_bytes) = self.drawn(&poses)?;
         let scan_bytes: usize = nodes.iter().map(|node| 4 * node.sweep.ranges_m.len()).sum();
-        let map_bytes = field.cells().memory_bytes() + counts.memory_bytes();
         Ok(BuiltMap {
             trajectory: self.trajectory(&poses),
             memory_bytes: scan_bytes + self.front.memory_bytes() + submap_bytes.max(map_bytes),
@@ -324,6 +318,28 @@ impl Mapper {
             node_poses: poses,
             loops,
         })
+    }
+
+    /// The map of the key scans at poses of any origin, for instance those of another program: a
+    /// pose of the sensor for each key scan, in their order.
+    ///
+    /// # Errors
+    /// A map with too many cells.
+    pub fn map_at(&self, node_poses: &[Pose2]) -> Result<OccupancyGrid, MappingError> {
+        Ok(self.drawn(node_poses)?.0)
+    }
+
+    /// Cells and signed distances of the key scans at poses, and their memory in bytes.
+    fn drawn(&self, poses: &[Pose2]) -> Result<(OccupancyGrid, SdfMap, usize), MappingError> {
+        let nodes = &self.front.nodes;
+        let field = whole_map(nodes, poses, &self.config);
+        let mut counts = RayCounts::new(self.config.resolution_m);
+        for (node, &pose) in nodes.iter().zip(poses) {
+            counts.add(&node.sweep, pose, self.config.occupancy.reach_m);
+        }
+        let grid = occupancy_grid(&counts, &field, &self.config.occupancy)?;
+        let n_bytes = field.cells().memory_bytes() + counts.memory_bytes();
+        Ok((grid, field, n_bytes))
     }
 
     /// The pose of the sensor at every scan, given those of the key scans.

@@ -7,6 +7,7 @@ use formicar::scenario::ScenarioError;
 use formicar::tracking::TrackingError;
 use formicar::tuning::TuningError;
 use formicar::vehicle::VehicleError;
+use formicar_mapping::MappingError;
 use pyo3::create_exception;
 use pyo3::exceptions::{PyFileNotFoundError, PyValueError};
 use pyo3::prelude::*;
@@ -44,6 +45,13 @@ create_exception!(
     "Samples or a document that make no path."
 );
 
+create_exception!(
+    formicar,
+    InvalidLog,
+    PyValueError,
+    "Scans, odometry, a log, a bag or a session that make no map."
+);
+
 /// A request that cannot be asked.
 pub(crate) fn invalid_request(message: impl Display) -> PyErr {
     InvalidRequest::new_err(message.to_string())
@@ -67,6 +75,11 @@ pub(crate) fn vehicle(error: impl Display) -> PyErr {
 /// A path that cannot be.
 pub(crate) fn path(error: impl Display) -> PyErr {
     InvalidPath::new_err(error.to_string())
+}
+
+/// A log that cannot be; the chain of causes in one line.
+pub(crate) fn log(error: impl Display) -> PyErr {
+    InvalidLog::new_err(format!("{error:#}"))
 }
 
 /// The exception for a file: one that is not there is told apart, as everywhere in Python.
@@ -138,6 +151,15 @@ impl From<TrackingError> for Failed {
             TrackingError::OutOfRange(_) => config(error),
             TrackingError::NeedsACar | TrackingError::NeedsAWheelbase => vehicle(error),
             _ => path(error),
+        })
+    }
+}
+
+impl From<MappingError> for Failed {
+    fn from(error: MappingError) -> Self {
+        Self(match error {
+            MappingError::Parameter { .. } | MappingError::RangeLimits { .. } => config(error),
+            _ => log(error),
         })
     }
 }

@@ -40,7 +40,8 @@ impl Grid {
         }
     }
 
-    fn named(map: OccupancyGrid, name: &str) -> Self {
+    /// A map under a name, whose unknown cells stop a vehicle.
+    pub(crate) fn named(map: OccupancyGrid, name: &str) -> Self {
         let record = MapRecord {
             name: name.to_owned(),
             unknown: "occupied".to_owned(),
@@ -201,8 +202,8 @@ impl Grid {
         };
         let distances = py.detach(|| {
             let field = DistanceField::new(&self.map.lethal_cells(), n_cells);
-            let squared = field.as_slice().iter();
-            let meters = squared.map(|&squared| f64::from(squared).sqrt() * resolution_m);
+            let squared = field.values();
+            let meters = squared.map(|squared| f64::from(squared).sqrt() * resolution_m);
             meters.collect::<Vec<_>>()
         });
         let field = Array2::from_shape_vec(self.shape(), distances).map_err(values::broken)?;

@@ -10,6 +10,9 @@ mod curves;
 mod drive;
 mod errors;
 mod grid;
+mod lidar_log;
+mod localizer;
+mod mapper;
 mod observe;
 mod path;
 mod pictures;
@@ -63,9 +66,17 @@ mod _formicar {
     #[pymodule_export]
     use crate::drive::Drive;
     #[pymodule_export]
-    use crate::errors::{ConfigError, InvalidMap, InvalidPath, InvalidRequest, InvalidVehicle};
+    use crate::errors::{
+        ConfigError, InvalidLog, InvalidMap, InvalidPath, InvalidRequest, InvalidVehicle,
+    };
     #[pymodule_export]
     use crate::grid::Grid;
+    #[pymodule_export]
+    use crate::lidar_log::LidarLog;
+    #[pymodule_export]
+    use crate::localizer::MapLocalizer;
+    #[pymodule_export]
+    use crate::mapper::{LidarMap, LidarMapper};
     #[pymodule_export]
     use crate::parameters;
     #[pymodule_export]

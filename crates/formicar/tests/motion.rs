@@ -334,6 +334,19 @@ mod crossings {
         assert!(n_fastest > 30 && n_lattice > 60 && n_waits > 10);
     }
 
+    /// Seeds whose drives once broke a rule: one that begins in motion, one with bounded jerk where
+    /// the whole path is closed for good, and one with both.
+    #[test]
+    fn drives_that_broke_a_rule_keep_it() {
+        for seed in [394, 1631, 9569] {
+            let crossing = crossing(seed);
+            match crossing.plan() {
+                Ok(plan) => assert!(crossing.judge(&plan.timed).valid, "{seed}"),
+                Err(error) => assert!(matches!(error, MotionError::Unavoidable { .. }), "{seed}"),
+            }
+        }
+    }
+
     #[test]
     fn no_delayed_start_is_faster() {
         let mut n_compared = 0;

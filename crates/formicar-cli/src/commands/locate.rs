@@ -2,7 +2,7 @@
 #![allow(clippy::doc_markdown, reason = "clap prints these words as they stand")]
 
 use crate::failure::{Ending, Failure, note};
-use crate::lidar::{Interrupt, MapToSearch, ScanBar, Trajectory, read_log};
+use crate::lidar::{Interrupt, LogArgs, MapToSearch, ScanBar, Trajectory, read_log};
 use crate::values;
 use anyhow::{Result, anyhow};
 use clap::{Args, ValueHint};
@@ -19,7 +19,7 @@ use std::path::PathBuf;
 The poses are those of the laser, in the frame of the map. A scan that fits nowhere is lost: its \
 row holds the expected pose and says so. Exit code 3 where more than half of the scans are lost.")]
 pub(crate) struct LocateArgs {
-    /// The lidar log, in the format of CARMEN, plain or .gz.
+    /// The lidar log: a bag of ROS 2 (.mcap, or its folder), or CARMEN, plain or .gz.
     #[arg(value_name = "LOG", value_hint = ValueHint::FilePath)]
     pub(super) log: PathBuf,
 
@@ -35,9 +35,8 @@ pub(crate) struct LocateArgs {
     #[arg(long, conflicts_with = "start")]
     pub(super) global: bool,
 
-    /// Use the scans alone.
-    #[arg(long)]
-    pub(super) no_odometry: bool,
+    #[command(flatten)]
+    pub(super) how: LogArgs,
 
     /// Write the pose at every scan: .csv with quality and standard deviations, or .tum.
     #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
@@ -47,12 +46,7 @@ pub(crate) struct LocateArgs {
 /// Carries out `locate`.
 pub(crate) fn run(args: &LocateArgs, out: &mut impl Write) -> Result<Ending, Failure> {
     let trajectory = Trajectory::of(args.trajectory.as_deref())?;
-    let log = read_log(&args.log)?;
-    let log = if args.no_odometry {
-        log.without_odometry()
-    } else {
-        log
-    };
+    let log = read_log(&args.log, &args.how)?;
     let map = MapToSearch::read(&args.map)?;
     let interrupt = Interrupt::watch();
     let found = located(&map, &log, args.start, &interrupt)?;

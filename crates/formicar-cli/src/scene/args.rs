@@ -10,7 +10,8 @@ use std::path::{Path, PathBuf};
 /// Flags for the map, the areas closed on it, and the vehicle.
 #[derive(Args, Debug, Default)]
 pub(crate) struct SceneArgs {
-    /// Map file (ROS .yaml, Moving AI .map, .csv or .txt matrix) or name of a built-in map.
+    /// Map file (ROS .yaml, Moving AI .map, .csv or .txt matrix), name of a built-in map, or a bag
+    /// of ROS 2: F.mcap[:TOPIC][@TIME].
     #[arg(long, value_name = "F|NAME", value_hint = ValueHint::FilePath)]
     pub(crate) map: Option<String>,
 

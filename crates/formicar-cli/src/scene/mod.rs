@@ -11,6 +11,7 @@ pub(crate) use blocked::Blocked;
 pub(crate) use scenario_file::{Loaded, ScenarioFile};
 pub(crate) use vehicle::by_name as vehicle;
 
+use crate::bag::{self, MapAddress};
 use anyhow::{Result, bail};
 use closed::Closed;
 use formicar::geometry::Pose2;
@@ -126,6 +127,9 @@ fn file(args: &SceneArgs, name: &str) -> Result<Loaded> {
     if let Some(id) = &args.request {
         bail!("--request {id}: only built-in maps have requests; hint: --start and --goal");
     }
+    if let Some(address) = MapAddress::parse(name)? {
+        return of_bag(args, name, &address);
+    }
     let path = Path::new(name);
     if !path.exists() && path.extension().is_none() {
         // A bare word: most likely a misspelled built-in.
@@ -139,4 +143,27 @@ fn file(args: &SceneArgs, name: &str) -> Result<Loaded> {
         vehicle: None,
         ends: None,
     })
+}
+
+/// The map at an address in a bag.
+fn of_bag(args: &SceneArgs, name: &str, address: &MapAddress) -> Result<Loaded> {
+    if args.resolution.is_some() || args.unknown_grey.is_some() {
+        bail!(
+            "{name}: maps in bags have their own resolution and unknown cells; hint: leave \
+             --resolution and --unknown-grey out"
+        );
+    }
+    #[cfg(feature = "record")]
+    {
+        let (map, warnings) = bag::read_map(address)?;
+        Ok(Loaded {
+            name: name.to_owned(),
+            map,
+            warnings,
+            vehicle: None,
+            ends: None,
+        })
+    }
+    #[cfg(not(feature = "record"))]
+    bag::refuse(&address.bag)
 }

@@ -158,8 +158,12 @@ pub(crate) struct Table {
 }
 
 /// Columns that differ from run to run.
-const VARYING: [&str; 9] = [
+const VARYING: [&str; 13] = [
     "cold_first_s",
+    "map_setup_cpu_s",
+    "first_feasible_cpu_s",
+    "cold_first_cpu_s",
+    "query_cpu_s",
     "judge_s",
     "map_setup_s",
     "first_feasible_s",

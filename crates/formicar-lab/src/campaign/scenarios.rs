@@ -13,14 +13,15 @@ pub struct ScenariosEntry {
     /// Names of built-in maps, `narrow` (the narrow set) or `builtin` (all of them).
     #[serde(default)]
     pub builtin: Vec<Spanned<String>>,
-    /// Car scenarios (.json), a TPCAP case (.csv) or `MovingAI` scenarios (.scen), relative to the
-    /// campaign file.
+    /// Car scenarios or worlds of BARN (.json), a TPCAP case (.csv) or `MovingAI` scenarios (.scen),
+    /// relative to the campaign file.
     pub file: Option<Spanned<String>>,
     /// Some of the scenarios: ids of the file, or requests of the built-in maps.
     pub ids: Option<Vec<Spanned<String>>>,
     /// At most so many, evenly spread from first to last.
     pub limit: Option<Spanned<u32>>,
-    /// Side of a cell of a TPCAP case, meters.
+    /// Side of a cell where the file leaves that open, meters: of TPCAP cases, worlds of BARN, and
+    /// maps as text.
     pub resolution_m: Option<Spanned<f64>>,
 }
 

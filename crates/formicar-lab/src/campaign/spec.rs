@@ -157,7 +157,7 @@ impl Fingerprints {
                 }
                 self.of_maps[&map].fingerprint(&job.task)?
             }
-            Place::File { .. } | Place::Builtin { .. } => {
+            Place::Barn { .. } | Place::File { .. } | Place::Builtin { .. } => {
                 Hashed::load(job, sources)?.fingerprint(&job.task)?
             }
         };

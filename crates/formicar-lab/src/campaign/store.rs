@@ -41,6 +41,7 @@ impl Store {
         } else {
             check_schema(&store.connection).with_context(name)?;
             store.check(campaign, version).with_context(name)?;
+            tables::widen(&store.connection).with_context(name)?;
         }
         store.places = (0..campaign.runs.len() as i64).collect();
         Ok(store)
@@ -66,6 +67,7 @@ impl Store {
             made.with_context(name)?;
         } else {
             check_schema(&store.connection).with_context(name)?;
+            tables::widen(&store.connection).with_context(name)?;
             check_settings(&store.settings()?, settings, path)?;
         }
         store.grow(campaign).with_context(name)?;
@@ -333,7 +335,9 @@ mod tests {
                     at_s: 0.1,
                     steps: 3,
                     length_m: 2.5,
+                    ..Improvement::default()
                 }],
+                cold: Vec::new(),
                 iterations: Vec::new(),
             },
             path: None,

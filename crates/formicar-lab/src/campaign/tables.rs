@@ -72,8 +72,31 @@ pub(super) fn create(connection: &Connection) -> Result<()> {
 /// The columns of a run, but for its place, its history and its path.
 fn columns() -> String {
     let columns = COLUMNS.iter().chain(ORIGIN_COLUMNS);
-    let quoted: Vec<String> = columns.map(|column| format!("\"{column}\"")).collect();
+    let quoted: Vec<String> = columns.map(|column| quoted(column)).collect();
     quoted.join(", ")
+}
+
+fn quoted(column: &str) -> String {
+    format!("\"{column}\"")
+}
+
+/// The columns of a run that this build has and the table of a build before it has not.
+fn missing_columns(connection: &Connection) -> Result<BTreeSet<&'static str>> {
+    let sql = "SELECT name FROM pragma_table_info('run')";
+    let known: BTreeSet<String> = rows(connection, sql, |row| Ok(row.get(0)?))?;
+    let columns = COLUMNS.iter().chain(ORIGIN_COLUMNS).copied();
+    Ok(columns.filter(|column| !known.contains(*column)).collect())
+}
+
+/// Adds the columns that a store of a build before this one lacks.
+pub(super) fn widen(connection: &Connection) -> Result<()> {
+    for column in missing_columns(connection)? {
+        connection.execute(
+            &format!("ALTER TABLE run ADD COLUMN {}", quoted(column)),
+            [],
+        )?;
+    }
+    Ok(())
 }
 
 /// The number of rows of a table.
@@ -141,7 +164,8 @@ pub(super) fn insert(connection: &Connection, place: i64, run: &Run) -> Result<(
         None => Value::Null,
     });
     let marks = vec!["?"; values.len()].join(", ");
-    let sql = format!("INSERT INTO run VALUES ({marks})");
+    let columns = columns();
+    let sql = format!("INSERT INTO run (place, {columns}, history, path) VALUES ({marks})");
     connection.execute(&sql, params_from_iter(values))?;
     Ok(())
 }
@@ -159,7 +183,18 @@ pub(super) fn job(row: &Row) -> Result<Job> {
 
 /// The runs that are over, in the order of the campaign.
 pub(super) fn runs(connection: &Connection) -> Result<Vec<Run>> {
-    let columns = columns();
+    let missing = missing_columns(connection)?;
+    let columns = COLUMNS.iter().chain(ORIGIN_COLUMNS);
+    let columns: Vec<String> = columns
+        .map(|column| {
+            if missing.contains(column) {
+                "NULL".to_owned()
+            } else {
+                quoted(column)
+            }
+        })
+        .collect();
+    let columns = columns.join(", ");
     let sql = format!("SELECT {columns}, history, path FROM run ORDER BY place");
     rows(connection, &sql, run)
 }

@@ -1,7 +1,7 @@
 //! From words for scenarios to tasks. Everything wrong with them is found here, before anything is
 //! started.
 
-use crate::run::{Place, Sources, Task};
+use crate::run::{BARN_RESOLUTION_M, BarnWorlds, Place, Sources, Task};
 use anyhow::{Context, Result, anyhow, bail};
 use formicar::map::builtin::{self, BuiltinKind, BuiltinMap};
 use formicar::map::format::{
@@ -16,7 +16,7 @@ use std::path::Path;
 pub struct TaskSource<'a> {
     /// A file, a built-in map or a set of them.
     pub word: &'a str,
-    /// Lines of a .scen file that are taken; all where there is none.
+    /// Lines of a .scen file or worlds of BARN that are taken; all where there is none.
     pub limit: Option<u32>,
     /// Side of a cell, where the file leaves that open.
     pub resolution_m: Option<f64>,
@@ -61,7 +61,11 @@ pub fn tasks_of(
             ),
             None => of_movingai(path, limit),
         },
-        Some("json" | "csv") => of_file(path, source.resolution_m, sources),
+        Some("json") => match BarnWorlds::read(path)? {
+            Some(worlds) => of_barn(path, &worlds, source),
+            None => of_file(path, source.resolution_m, sources),
+        },
+        Some("csv") => of_file(path, source.resolution_m, sources),
         _ => of_builtin(word),
     }
 }
@@ -97,6 +101,28 @@ fn of_builtin(word: &str) -> Result<Vec<Task>> {
         requests.map(move |request| task(map, request.id))
     });
     Ok(tasks.collect())
+}
+
+/// Worlds of BARN, at most as many as wanted.
+fn of_barn(path: &Path, worlds: &BarnWorlds, source: &TaskSource) -> Result<Vec<Task>> {
+    let name = stem(path)?;
+    let resolution_m = source.resolution_m.unwrap_or(BARN_RESOLUTION_M);
+    let ids: Vec<u32> = worlds.ids().collect();
+    let taken = spread(ids.len(), source.limit).map(|i| ids[i]);
+    let task = |world: u32| {
+        // A world that gives no map is found now rather than once per run.
+        worlds.grid(world, resolution_m)?;
+        Ok(Task {
+            scenario: format!("{name}-{world:03}"),
+            source: name.clone(),
+            place: Place::Barn {
+                path: path.to_owned(),
+                world,
+                resolution_m,
+            },
+        })
+    };
+    taken.map(task).collect()
 }
 
 fn of_file(path: &Path, resolution_m: Option<f64>, sources: &dyn Sources) -> Result<Vec<Task>> {

@@ -38,6 +38,21 @@ pub struct RivalAnswer {
     /// [time, length] of every path that was better than those before, seconds and meters.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub improvements: Vec<[f64; 2]>,
+    /// Poses of the paths of `improvements` but the last, whose poses are `poses`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub earlier_poses: Vec<Vec<Vec<f64>>>,
+    /// Processor time to the first path, seconds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub first_feasible_cpu_s: Option<f64>,
+    /// Processor time of the query, seconds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub query_cpu_s: Option<f64>,
+    /// Processor time of setting up, seconds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub map_setup_cpu_s: Option<f64>,
+    /// Processor time to each path of `improvements`, seconds.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub improvements_cpu_s: Vec<f64>,
 }
 
 /// The most poses of a path.
@@ -82,6 +97,9 @@ impl RivalAnswer {
             ("query_s", self.query_s),
             ("map_setup_s", self.map_setup_s),
             ("cpu_s", self.cpu_s),
+            ("first_feasible_cpu_s", self.first_feasible_cpu_s),
+            ("query_cpu_s", self.query_cpu_s),
+            ("map_setup_cpu_s", self.map_setup_cpu_s),
         ];
         for (field, time_s) in times {
             if let Some(time_s) = time_s.filter(|s| !(0.0..=1e9).contains(s)) {
@@ -92,40 +110,80 @@ impl RivalAnswer {
         if let Some(i) = self.improvements.iter().position(|i| !is_improvement(i)) {
             bail!("improvements[{i}]: expected [seconds, meters], both from 0 on");
         }
-        self.check_poses()
+        self.check_course()?;
+        check_poses("poses", &self.poses)?;
+        let mut earlier = self.earlier_poses.iter().enumerate();
+        earlier.try_for_each(|(i, poses)| check_poses(&format!("earlier_poses[{i}]"), poses))
     }
 
-    fn check_poses(&self) -> Result<()> {
-        if self.poses.len() > MAX_POSES {
-            bail!(
-                "poses: {} of them; expected at most {MAX_POSES}",
-                self.poses.len()
-            );
-        }
-        let n_numbers = self.poses.first().map_or(3, Vec::len);
-        let is_pose = |pose: &Vec<f64>| {
-            let is_number = |value: &f64| value.abs() <= 1e9;
-            (2..=3).contains(&n_numbers) && pose.len() == n_numbers && pose.iter().all(is_number)
-        };
-        match self.poses.iter().position(|pose| !is_pose(pose)) {
-            Some(i) => bail!(
-                "poses[{i}]: expected [x, y, heading], or [x, y] in all of them, each between \
-                 -1e9 and 1e9"
+    /// What is told of the improvements is told of each of them.
+    fn check_course(&self) -> Result<()> {
+        let n = self.improvements.len();
+        let told = [
+            ("improvements_cpu_s", self.improvements_cpu_s.len(), n),
+            (
+                "earlier_poses",
+                self.earlier_poses.len(),
+                n.saturating_sub(1),
             ),
+        ];
+        match told
+            .iter()
+            .find(|(_, n_told, n)| *n_told > 0 && n_told != n)
+        {
+            Some((field, n_told, n)) => {
+                bail!("{field}: {n_told} of them; expected {n}, as improvements tells")
+            }
             None => Ok(()),
         }
     }
 
     /// The path as samples.
     pub fn samples(&self) -> Samples {
-        let has_headings = self.poses.first().is_some_and(|pose| pose.len() == 3);
-        let headings = || self.poses.iter().map(|pose| pose[2]).collect();
-        let points = self.poses.iter();
-        Samples {
-            points: points.map(|pose| Point2::new(pose[0], pose[1])).collect(),
-            headings: has_headings.then(headings),
-            rounding_m: 0.0,
-        }
+        samples(&self.poses)
+    }
+
+    /// The path of an improvement as samples; none where its poses are not told.
+    pub fn samples_of(&self, improvement: usize) -> Option<Samples> {
+        let is_last = improvement + 1 == self.improvements.len();
+        let poses = is_last.then_some(&self.poses);
+        poses
+            .or(self.earlier_poses.get(improvement))
+            .map(|poses| samples(poses))
+    }
+}
+
+fn check_poses(field: &str, poses: &[Vec<f64>]) -> Result<()> {
+    if poses.len() > MAX_POSES {
+        bail!(
+            "{field}: {} of them; expected at most {MAX_POSES}",
+            poses.len()
+        );
+    }
+    let n_numbers = poses.first().map_or(3, Vec::len);
+    let is_pose = |pose: &Vec<f64>| {
+        let is_number = |value: &f64| value.abs() <= 1e9;
+        (2..=3).contains(&n_numbers) && pose.len() == n_numbers && pose.iter().all(is_number)
+    };
+    match poses.iter().position(|pose| !is_pose(pose)) {
+        Some(i) => bail!(
+            "{field}[{i}]: expected [x, y, heading], or [x, y] in all of them, each between -1e9 \
+             and 1e9"
+        ),
+        None => Ok(()),
+    }
+}
+
+fn samples(poses: &[Vec<f64>]) -> Samples {
+    let has_headings = poses.first().is_some_and(|pose| pose.len() == 3);
+    let headings = || poses.iter().map(|pose| pose[2]).collect();
+    Samples {
+        points: poses
+            .iter()
+            .map(|pose| Point2::new(pose[0], pose[1]))
+            .collect(),
+        headings: has_headings.then(headings),
+        rounding_m: 0.0,
     }
 }
 
@@ -151,6 +209,14 @@ mod tests {
                 "improvements[0]",
             ),
             (
+                r#"{"status": "ready", "improvements": [[0, 1], [1, 1]], "improvements_cpu_s": [0]}"#,
+                "improvements_cpu_s: 1 of them; expected 2",
+            ),
+            (
+                r#"{"status": "ready", "improvements": [[0, 1], [1, 1]], "earlier_poses": [[[1]]]}"#,
+                "earlier_poses[0][0]",
+            ),
+            (
                 r#"{"status": "ready", "speed": 1}"#,
                 "unknown field `speed`",
             ),
@@ -168,5 +234,17 @@ mod tests {
         let answer = RivalAnswer::read(r#"{"status": "found", "poses": [[1, 2]]}"#).unwrap();
         assert_eq!(answer.samples().points, [Point2::new(1.0, 2.0)]);
         assert_eq!(answer.samples().headings, None);
+    }
+
+    #[test]
+    fn improvements_have_paths_of_their_own() {
+        let answer = RivalAnswer {
+            improvements: vec![[0.1, 9.0], [0.2, 8.0]],
+            poses: vec![vec![8.0, 0.0]],
+            earlier_poses: vec![vec![vec![9.0, 0.0]]],
+            ..RivalAnswer::default()
+        };
+        let x = |i| answer.samples_of(i).map(|samples| samples.points[0].x);
+        assert_eq!([x(0), x(1), x(2)], [Some(9.0), Some(8.0), None]);
     }
 }

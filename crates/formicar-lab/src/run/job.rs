@@ -35,7 +35,7 @@ impl Task {
     pub fn file(&self) -> Option<&std::path::Path> {
         match &self.place {
             Place::File { path, .. } => Some(path),
-            Place::Builtin { .. } | Place::Cells { .. } => None,
+            Place::Barn { .. } | Place::Builtin { .. } | Place::Cells { .. } => None,
         }
     }
 }
@@ -52,6 +52,15 @@ pub enum Place {
         id: Option<String>,
         /// Side of a cell, where the file leaves that open, meters.
         resolution_m: Option<f64>,
+    },
+    /// A world of the BARN benchmark.
+    Barn {
+        /// The file of worlds.
+        path: PathBuf,
+        /// One of them.
+        world: u32,
+        /// Side of a cell, meters.
+        resolution_m: f64,
     },
     /// In the library.
     Builtin {

@@ -1,12 +1,13 @@
 //! One query, watched and timed.
 
 use super::usage;
+use formicar::path::CurvePath;
 use formicar::progress::{Event, IterationRecord, Observer};
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
 
 /// A certified path that was better than all before it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Improvement {
     /// Time since the beginning of the query, seconds.
     pub at_s: f64,
@@ -14,6 +15,12 @@ pub struct Improvement {
     pub steps: u64,
     /// Length of the path.
     pub length_m: f64,
+    /// Processor time since the beginning of the query, seconds; none where nobody tells.
+    #[serde(default)]
+    pub cpu_s: Option<f64>,
+    /// Cost of driving the path by the usual weights; none of a path that was not judged valid.
+    #[serde(default)]
+    pub cost_m: Option<f64>,
 }
 
 /// An iteration of a colony or a population, with the time at which it ended.
@@ -35,8 +42,10 @@ pub struct Measured<T> {
     /// Processor time of the process during the query, seconds; none where the platform does not
     /// tell.
     pub cpu_s: Option<f64>,
-    /// Certified paths, the best last.
+    /// Certified paths, the best last; their costs are not computed yet.
     pub improvements: Vec<Improvement>,
+    /// The paths themselves, in the same order.
+    pub paths: Vec<CurvePath>,
     /// Iterations of the last colony or population that ran.
     pub iterations: Vec<TimedIteration>,
 }
@@ -47,6 +56,11 @@ impl<T> Measured<T> {
         self.improvements.first().map(|first| first.at_s)
     }
 
+    /// Processor time from the beginning of the query to its first certified path, seconds.
+    pub fn first_feasible_cpu_s(&self) -> Option<f64> {
+        self.improvements.first()?.cpu_s
+    }
+
     /// The same measures with another answer.
     pub fn map<U>(self, convert: impl FnOnce(T) -> U) -> Measured<U> {
         Measured {
@@ -54,6 +68,7 @@ impl<T> Measured<T> {
             query_s: self.query_s,
             cpu_s: self.cpu_s,
             improvements: self.improvements,
+            paths: self.paths,
             iterations: self.iterations,
         }
     }
@@ -81,8 +96,10 @@ pub fn measure<T>(
     let cpu_before_s = usage::cpu_s();
     let mut watch = Watch {
         begun: Instant::now(),
+        cpu_before_s,
         search_begun: Duration::ZERO,
         improvements: Vec::new(),
+        paths: Vec::new(),
         iterations: Vec::new(),
         other,
     };
@@ -94,6 +111,7 @@ pub fn measure<T>(
         query_s,
         cpu_s: cpu_s.map(|(after_s, before_s)| after_s - before_s),
         improvements: watch.improvements,
+        paths: watch.paths,
         iterations: watch.iterations,
     }
 }
@@ -101,13 +119,27 @@ pub fn measure<T>(
 /// Lends a clock to a query and notes its paths and iterations.
 struct Watch<'a> {
     begun: Instant,
+    cpu_before_s: Option<f64>,
     search_begun: Duration,
     improvements: Vec<Improvement>,
+    paths: Vec<CurvePath>,
     iterations: Vec<TimedIteration>,
     other: &'a mut dyn Observer,
 }
 
 impl Watch<'_> {
+    fn improve(&mut self, path: &CurvePath, length_m: f64, steps: u64) {
+        let cpu_s = usage::cpu_s().zip(self.cpu_before_s);
+        self.improvements.push(Improvement {
+            at_s: self.begun.elapsed().as_secs_f64(),
+            steps,
+            length_m,
+            cpu_s: cpu_s.map(|(now_s, before_s)| now_s - before_s),
+            cost_m: None,
+        });
+        self.paths.push(path.clone());
+    }
+
     fn note(&mut self, record: &IterationRecord) {
         if record.iteration == 0 {
             // A planner that tries again begins anew.
@@ -126,12 +158,10 @@ impl Observer for Watch<'_> {
         match event {
             Event::SearchStarted => self.search_begun = self.begun.elapsed(),
             Event::Improved {
-                length_m, n_steps, ..
-            } => self.improvements.push(Improvement {
-                at_s: self.begun.elapsed().as_secs_f64(),
-                steps: *n_steps,
-                length_m: *length_m,
-            }),
+                path,
+                length_m,
+                n_steps,
+            } => self.improve(path, *length_m, *n_steps),
             Event::Iteration(view) => self.note(view.record),
             Event::Generation(view) => self.note(view.record),
             _ => {}
@@ -166,7 +196,7 @@ mod tests {
             }
         }
         let mut counter = Counter::default();
-        let path = formicar::path::CurvePath::from_polyline(&[]);
+        let path = CurvePath::from_polyline(&[]);
         let measured = measure(&mut counter, |observer| {
             observer.on_event(&Event::SearchStarted);
             for (length_m, n_steps) in [(3.0, 5), (2.0, 9)] {
@@ -182,6 +212,8 @@ mod tests {
         assert_eq!(counter.0, 3);
         let steps: Vec<u64> = measured.improvements.iter().map(|i| i.steps).collect();
         assert_eq!(steps, [5, 9]);
+        assert_eq!(measured.paths.len(), 2);
+        assert!(measured.first_feasible_cpu_s() <= measured.cpu_s);
         let first_s = measured.first_feasible_s().unwrap();
         assert!(first_s <= measured.improvements[1].at_s && first_s <= measured.query_s);
     }

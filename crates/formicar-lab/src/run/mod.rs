@@ -4,6 +4,7 @@
 //! A [`Job`] says which planner is asked what. [`carry_out`] does it in this process, a
 //! [`Program`] in one of its own. What comes out is a [`Run`].
 
+mod barn;
 mod columns;
 mod evaluate;
 mod in_process;
@@ -19,6 +20,7 @@ mod table;
 mod theirs;
 pub mod usage;
 
+pub use barn::{BARN_RESOLUTION_M, BARN_VEHICLE, BarnWorlds};
 pub use evaluate::Evaluation;
 pub use in_process::InProcess;
 pub use job::{

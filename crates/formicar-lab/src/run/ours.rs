@@ -2,7 +2,7 @@
 
 use super::evaluate::Evaluation;
 use super::job::Job;
-use super::measure::{Measured, measure};
+use super::measure::{Improvement, Measured, measure};
 use super::record::{History, Run, RunRecord, one_line};
 use super::scenario::{LoadedScenario, Sources};
 use super::status::RunStatus;
@@ -14,7 +14,7 @@ use formicar::numeric::Seed;
 use formicar::path::{CurvePath, GridPath, Spacing};
 use formicar::planner::{
     AnswerContext, ColonyRecord, Outcome, PathDocument, Plan, PlanError, Planner, RequestDocument,
-    Stages, Timing,
+    Timing,
 };
 use std::f64::consts::SQRT_2;
 use std::path::Path;
@@ -45,6 +45,21 @@ impl Begun {
             cpu_s: usage::cpu_s(),
         }
     }
+
+    fn so_far(&self) -> Spent {
+        let cpu_s = usage::cpu_s().zip(self.cpu_s);
+        Spent {
+            wall_s: self.at.elapsed().as_secs_f64(),
+            cpu_s: cpu_s.map(|(now_s, begun_s)| now_s - begun_s),
+        }
+    }
+}
+
+/// Time spent on something.
+#[derive(Clone, Copy, Debug)]
+struct Spent {
+    wall_s: f64,
+    cpu_s: Option<f64>,
 }
 
 /// Carries out a run of a planner of ours.
@@ -63,13 +78,12 @@ pub(super) fn run_planner(
     begun: Begun,
     make: impl FnOnce(&LoadedScenario) -> Result<Planner, PlanError>,
 ) -> Result<Run> {
-    let setup = Instant::now();
+    let setup = Begun::now();
     let planner = make(&scenario)?;
-    let map_setup_s = setup.elapsed().as_secs_f64();
     let run = OurRun {
         job,
         request: scenario.request(job)?,
-        map_setup_s,
+        setup: setup.so_far(),
         planner,
         scenario,
         begun,
@@ -80,7 +94,7 @@ pub(super) fn run_planner(
 struct OurRun<'a> {
     job: &'a Job,
     request: RequestDocument,
-    map_setup_s: f64,
+    setup: Spent,
     planner: Planner,
     scenario: LoadedScenario,
     begun: Begun,
@@ -92,7 +106,8 @@ struct Counted {
     total_s: f64,
     cpu_s: Option<f64>,
     peak_rss_bytes: Option<u64>,
-    cold_first_s: Option<f64>,
+    /// The query before the one that counts.
+    cold: Option<Answer>,
     /// True if the cold and the warm planner return the same path.
     is_same: bool,
 }
@@ -105,22 +120,15 @@ impl OurRun<'_> {
             self.write_answer(path, &counted)?;
         }
         let mut record = RunRecord::of_job(self.job);
-        record.map_setup_s = Some(self.map_setup_s);
-        record.first_feasible_s = answer.first_feasible_s();
-        record.query_s = Some(answer.query_s);
-        record.total_s = Some(counted.total_s);
-        record.cpu_s = counted.cpu_s;
-        record.peak_rss_bytes = counted.peak_rss_bytes;
-        record.cold_first_s = counted.cold_first_s;
+        self.note_times(&mut record, &counted);
         self.fill(&mut record, answer);
         if !counted.is_same && self.request.deadline_ms.is_none() {
             record.valid = Some(false);
             "asked again, the warm planner answers otherwise".clone_into(&mut record.reason);
         }
-        let stages = answer.answer.as_ref().ok().map(Outcome::stages);
         Ok(Run {
             record,
-            history: history(answer, stages),
+            history: self.history(&counted),
             path: found(answer).map(|plan| self.stored(&plan.path)),
             ..Run::default()
         })
@@ -133,19 +141,69 @@ impl OurRun<'_> {
         // Before anything else uses up more. The time of a query that warms up does not count.
         let cpu_s = usage::cpu_s().zip(self.begun.cpu_s);
         let warm_up_s = warm.as_ref().and(cold.cpu_s).unwrap_or(0.0);
-        let (peak_rss_bytes, cold_first_s) = (usage::peak_rss_bytes(), cold.first_feasible_s());
+        let peak_rss_bytes = usage::peak_rss_bytes();
         let is_same = match &warm {
             Some((warm, _)) => path_of(warm) == path_of(&cold),
             None => true,
         };
-        let (answer, total_s) = warm.unwrap_or((cold, cold_total_s));
+        let (answer, total_s, cold) = match warm {
+            Some((warm, total_s)) => (warm, total_s, Some(cold)),
+            None => (cold, cold_total_s, None),
+        };
         Counted {
             answer,
             total_s,
+            cold,
             cpu_s: cpu_s.map(|(now_s, begun_s)| now_s - begun_s - warm_up_s),
             peak_rss_bytes,
-            cold_first_s,
             is_same,
+        }
+    }
+
+    fn note_times(&self, record: &mut RunRecord, counted: &Counted) {
+        let answer = &counted.answer;
+        let cold = counted.cold.as_ref().unwrap_or(answer);
+        record.map_setup_s = Some(self.setup.wall_s);
+        record.map_setup_cpu_s = self.setup.cpu_s;
+        record.first_feasible_s = answer.first_feasible_s();
+        record.first_feasible_cpu_s = answer.first_feasible_cpu_s();
+        record.cold_first_s = cold.first_feasible_s();
+        record.cold_first_cpu_s = cold.first_feasible_cpu_s();
+        record.query_s = Some(answer.query_s);
+        record.query_cpu_s = answer.cpu_s;
+        record.total_s = Some(counted.total_s);
+        record.cpu_s = counted.cpu_s;
+        record.peak_rss_bytes = counted.peak_rss_bytes;
+    }
+
+    /// The course of the query that counts, and of the one before it; paths with their costs.
+    fn history(&self, counted: &Counted) -> History {
+        let stages = counted.answer.answer.as_ref().ok().map(Outcome::stages);
+        let colony = stages.and_then(ColonyRecord::new);
+        let iterations = colony.map_or(Vec::new(), |colony| colony.iterations);
+        let mut history = History::new(self.priced(&counted.answer), &iterations);
+        history.cold = counted
+            .cold
+            .as_ref()
+            .map_or(Vec::new(), |cold| self.priced(cold));
+        history
+    }
+
+    /// Improvements with the costs of their paths.
+    fn priced(&self, answer: &Answer) -> Vec<Improvement> {
+        let evaluation = self.evaluation();
+        let improvements = answer.improvements.iter().zip(&answer.paths);
+        let priced = |(improvement, path): (&Improvement, &CurvePath)| Improvement {
+            cost_m: evaluation.cost_m(path),
+            ..*improvement
+        };
+        improvements.map(priced).collect()
+    }
+
+    fn evaluation(&self) -> Evaluation<'_> {
+        Evaluation {
+            obstacles: self.planner.obstacles(),
+            vehicle: self.planner.vehicle(),
         }
     }
 
@@ -168,7 +226,7 @@ impl OurRun<'_> {
         };
         let measured = &counted.answer;
         let timing = Timing {
-            map_setup_s: self.map_setup_s,
+            map_setup_s: self.setup.wall_s,
             first_feasible_s: measured.first_feasible_s(),
             query_s: measured.query_s,
             total_s: counted.total_s,
@@ -212,10 +270,7 @@ impl OurRun<'_> {
         let Ok(request) = self.request.onto(&RequestDocument::default()) else {
             return;
         };
-        let evaluation = Evaluation {
-            obstacles: self.planner.obstacles(),
-            vehicle: self.planner.vehicle(),
-        };
+        let evaluation = self.evaluation();
         evaluation.ends(record, [request.start, request.goal]);
         if let Some(plan) = found(answer) {
             evaluation.plan(record, &request, plan);
@@ -237,12 +292,6 @@ fn found(answer: &Answer) -> Option<&Plan> {
 
 fn path_of(answer: &Answer) -> Option<&CurvePath> {
     found(answer).map(|plan| &plan.path)
-}
-
-fn history(answer: &Answer, stages: Option<&Stages>) -> History {
-    let colony = stages.and_then(ColonyRecord::new);
-    let iterations = colony.map_or(Vec::new(), |colony| colony.iterations);
-    History::new(answer.improvements.clone(), &iterations)
 }
 
 /// Length between cell centers: straight steps count 1, diagonal ones the square root of 2.

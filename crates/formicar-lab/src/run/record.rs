@@ -56,6 +56,14 @@ table_columns! {
     n_cusps_by_second: Option<u64> = "n_cusps_1s",
     /// Time to the first path of a planner that has just been made.
     cold_first_s: Option<f64>,
+    /// Processor time of preparing map and vehicle.
+    map_setup_cpu_s: Option<f64>,
+    /// Processor time from the beginning of the query to its first certified path.
+    first_feasible_cpu_s: Option<f64>,
+    /// The same of a planner that has just been made.
+    cold_first_cpu_s: Option<f64>,
+    /// Processor time of the query.
+    query_cpu_s: Option<f64>,
     /// Length of the first certified path.
     first_length_m: Option<f64>,
     /// Search steps to the first certified path.
@@ -176,6 +184,9 @@ pub struct Run {
 pub struct History {
     /// Certified paths, the best last.
     pub improvements: Vec<Improvement>,
+    /// Those of the first query of a planner that was asked twice.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub cold: Vec<Improvement>,
     /// The iterations of a colony, where one ran.
     pub iterations: Vec<Value>,
 }
@@ -185,6 +196,7 @@ impl History {
     pub fn new(improvements: Vec<Improvement>, iterations: &[IterationRecord]) -> Self {
         Self {
             improvements,
+            cold: Vec::new(),
             iterations: iterations
                 .iter()
                 .map(|iteration| json!(iteration))

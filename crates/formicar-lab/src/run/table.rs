@@ -70,11 +70,11 @@ pub fn read_csv(text: &str) -> Result<Vec<Run>> {
     Ok(runs)
 }
 
-/// Reads the table that a build before this one has left in a folder; a line that a kill has torn
-/// is dropped.
+/// Reads the table that a build before this one has left in a folder, which may lack columns of
+/// this one; a line that a kill has torn is dropped.
 ///
 /// # Errors
-/// Other columns, rows of other lengths, and runs that stand there twice.
+/// Columns that this version does not know, rows of other lengths, and runs that stand there twice.
 pub(crate) fn read_torn_csv(text: &str) -> Result<Vec<RunRecord>> {
     let n_complete = text.rfind('\n').map_or(0, |i| i + 1);
     let mut reader = csv::ReaderBuilder::new()
@@ -82,22 +82,24 @@ pub(crate) fn read_torn_csv(text: &str) -> Result<Vec<RunRecord>> {
         .flexible(true)
         .from_reader(&text.as_bytes()[..n_complete]);
     let mut lines = reader.records();
-    match lines.next().transpose()? {
-        None => return Ok(Vec::new()),
-        Some(header) if header.iter().eq(COLUMNS.iter().copied()) => {}
-        Some(_) => bail!("its columns are not those of this version; hint: another --out"),
+    let Some(header) = lines.next().transpose()? else {
+        return Ok(Vec::new());
+    };
+    let is_there = |name: &&&str| header.iter().any(|column| column == **name);
+    if !NEEDED.iter().all(|name| is_there(&name)) || !header.iter().all(|c| COLUMNS.contains(&c)) {
+        bail!("its columns are not those of this version; hint: another --out");
     }
     let (mut records, mut keys) = (Vec::new(), BTreeSet::new());
     for line in lines {
         let line = line?;
         let number = line.position().map_or(0, csv::Position::line);
-        if line.len() != COLUMNS.len() {
-            bail!("line {number}: no row of {} values", COLUMNS.len());
+        if line.len() != header.len() {
+            bail!("line {number}: no row of {} values", header.len());
         }
         let mut record = RunRecord::default();
-        for (column, value) in COLUMNS.iter().zip(&line) {
+        for (column, value) in header.iter().zip(&line) {
             let set = record.set(column, value);
-            set.with_context(|| format!("line {number}: no row of {} values", COLUMNS.len()))?;
+            set.with_context(|| format!("line {number}: no row of {} values", header.len()))?;
         }
         if !keys.insert(record.key()) {
             bail!("line {number}: a second row of one run");
@@ -181,7 +183,7 @@ mod tests {
         assert!(error.contains("line 3: a second row of one run"), "{error}");
         let short = format!("{text}b,astar,0,found\n");
         let error = read_torn_csv(&short).unwrap_err().to_string();
-        assert!(error.contains("line 3: no row of 54 values"), "{error}");
+        assert!(error.contains("line 3: no row of 58 values"), "{error}");
         assert_eq!(read_torn_csv("").unwrap(), []);
     }
 }

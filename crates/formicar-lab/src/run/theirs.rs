@@ -6,12 +6,13 @@ use super::measure::Improvement;
 use super::record::{History, Run, RunRecord, finite};
 use super::scenario::Sources;
 use super::status::RunStatus;
-use crate::rival::{Ended, Question, RivalAnswer, run as run_program};
+use crate::rival::{Ended, Question, RivalAnswer, Verdict, run as run_program};
 use anyhow::{Context, Result};
 use formicar::collision::ObstacleMap;
 use formicar::numeric::Seed;
 use formicar::path::CurvePath;
 use formicar::planner::{PathDocument, RequestDocument};
+use formicar::scenario::Request;
 use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
@@ -44,7 +45,8 @@ pub(super) fn run(job: &Job, command: &RivalCommand, sources: &dyn Sources) -> R
             improvements = improvements_of(&answer);
             if answer.status == "found" {
                 path = evaluation.foreign_path(&mut record, &request, &answer.samples());
-                note_judged_path(&mut record, &improvements);
+                let valid = judge_course(&evaluation, &request, &answer, &mut improvements);
+                note_course(&mut record, &answer, &valid);
             }
         }
         Err(error) => record.fail(RunStatus::Crashed, &format!("{error:#}")),
@@ -113,6 +115,7 @@ fn fill(record: &mut RunRecord, ended: &Ended, answer: &RivalAnswer) {
     };
     record.fail(status, answer.reason.as_deref().unwrap_or_default());
     record.map_setup_s = answer.map_setup_s;
+    record.map_setup_cpu_s = answer.map_setup_cpu_s;
     record.cpu_s = answer.cpu_s;
     record.peak_rss_bytes = answer.peak_rss_bytes;
     if !matches!(status, RunStatus::Found | RunStatus::NotFound) {
@@ -122,33 +125,67 @@ fn fill(record: &mut RunRecord, ended: &Ended, answer: &RivalAnswer) {
     let within = |time_s: f64| time_s.min(ended.total_s);
     let query_s = within(answer.query_s.unwrap_or(ended.total_s));
     record.query_s = Some(query_s);
+    record.query_cpu_s = answer.query_cpu_s;
     if status == RunStatus::Found {
         record.first_feasible_s = Some(answer.first_feasible_s.map_or(query_s, within));
+        record.first_feasible_cpu_s = answer.first_feasible_cpu_s;
     }
 }
 
+/// The paths that a program tells of; one that tells of none has found its path in the end.
 fn improvements_of(answer: &RivalAnswer) -> Vec<Improvement> {
-    let improvement = |&[at_s, length_m]: &[f64; 2]| Improvement {
+    let improvement = |(i, &[at_s, length_m]): (usize, &[f64; 2])| Improvement {
         at_s,
         steps: 0,
         length_m,
+        cpu_s: answer.improvements_cpu_s.get(i).copied(),
+        cost_m: None,
     };
-    answer.improvements.iter().map(improvement).collect()
+    let improvements = answer.improvements.iter().enumerate();
+    improvements.map(improvement).collect()
 }
 
-/// Notes the path that was judged, which is the last, where it was known by then. Nobody judged
-/// those before it.
-fn note_judged_path(record: &mut RunRecord, improvements: &[Improvement]) {
-    let at_s = improvements.last().map(|last| last.at_s).or(record.query_s);
-    if at_s.is_some_and(|at_s| at_s <= 0.1) {
-        record.length_by_tenth_m = record.length_m;
-        record.min_clearance_by_tenth_m = record.min_clearance_m;
-        record.n_cusps_by_tenth = record.n_cusps;
+/// Judges the paths of a course as far as their poses are told, notes length and cost of the valid
+/// ones, and returns these.
+fn judge_course(
+    evaluation: &Evaluation,
+    request: &Request,
+    answer: &RivalAnswer,
+    improvements: &mut [Improvement],
+) -> Vec<Improvement> {
+    let mut valid = Vec::new();
+    for (i, improvement) in improvements.iter_mut().enumerate() {
+        let samples = answer.samples_of(i);
+        let verdict = samples.and_then(|samples| {
+            Verdict::new(evaluation.obstacles, evaluation.vehicle, request, &samples)
+        });
+        if let Some(verdict) = verdict.filter(|verdict| verdict.report.valid) {
+            improvement.length_m = verdict.path.length_m();
+            improvement.cost_m = evaluation.cost_m(&verdict.path);
+            valid.push(*improvement);
+        }
     }
-    if at_s.is_some_and(|at_s| at_s <= 1.0) {
-        record.length_by_second_m = record.length_m;
-        record.min_clearance_by_second_m = record.min_clearance_m;
-        record.n_cusps_by_second = record.n_cusps;
+    valid
+}
+
+/// Notes when valid paths were known. A program that tells of no course has found its path in the
+/// end; where it shows every path, the first that can be driven counts as its first.
+fn note_course(record: &mut RunRecord, answer: &RivalAnswer, valid: &[Improvement]) {
+    if answer.improvements.is_empty() {
+        let only = record.query_s.zip(record.length_m);
+        let only = only.map(|(at_s, length_m)| Improvement {
+            at_s,
+            length_m,
+            ..Improvement::default()
+        });
+        record.note_known_paths(only.as_slice());
+        return;
+    }
+    record.note_known_paths(valid);
+    if let Some(first) = valid.first().filter(|_| !answer.earlier_poses.is_empty()) {
+        record.first_feasible_s = Some(first.at_s);
+        record.first_feasible_cpu_s = first.cpu_s;
+        record.first_length_m = Some(first.length_m);
     }
 }
 

@@ -2,6 +2,8 @@
 
 mod localizer;
 mod map;
+mod start;
 
 pub use localizer::{Localizer, Located};
 pub use map::{LocalizationMap, grid_distances};
+pub use start::first_pose;

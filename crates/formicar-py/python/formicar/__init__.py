@@ -27,6 +27,7 @@ from __future__ import annotations
 from ._curves import Curve, Dubins, ReedsShepp
 from ._formicar import (
     ConfigError,
+    InvalidLog,
     InvalidMap,
     InvalidPath,
     InvalidRequest,
@@ -56,6 +57,7 @@ __all__ = [
     "Gap",
     "History",
     "Integer",
+    "InvalidLog",
     "InvalidMap",
     "InvalidPath",
     "InvalidRequest",

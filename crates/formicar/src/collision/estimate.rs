@@ -56,9 +56,12 @@ impl ObstacleMap {
             return middle_m;
         }
         let far_m = body.disc_radius + enough_m;
-        let rooms = body.discs.iter();
-        let rooms = rooms.map(|&disc| self.room_about_m(place(disc), far_m));
-        rooms.fold(f64::INFINITY, f64::min) - body.disc_radius
+        let least_m = body.discs.iter().fold(f64::INFINITY, |least_m, &disc| {
+            // What is above the least of the others need not be told exactly.
+            let room_m = self.room_about_m(place(disc), far_m.min(least_m));
+            room_m.min(least_m)
+        });
+        least_m - body.disc_radius
     }
 
     /// Estimated distance from a point to the nearest lethal square or the border, meters, or a
@@ -85,10 +88,11 @@ impl ObstacleMap {
         let (col, row) = (x as usize, y as usize);
         let (u, v) = (x - col as f64, y - row as f64);
         let (next_col, above) = ((col + 1).min(last_col), (row + 1).min(last_row));
-        let at = |row: &[u16], col: usize| f64::from(row[col]).sqrt();
-        let (low, high) = (field.row(row), field.row(above));
-        let below = (1.0 - u) * at(low, col) + u * at(low, next_col);
-        let over = (1.0 - u) * at(high, col) + u * at(high, next_col);
+        let rows = field.squared_of_four([col, next_col], [row, above]);
+        let [below, over] = rows.map(|squared| {
+            let [left, right] = squared.map(|squared| f64::from(squared).sqrt());
+            (1.0 - u) * left + u * right
+        });
         let cells = (1.0 - v) * below + v * over - Self::CENTER_TO_SIDE_CELLS;
         (cells * resolution_m).min(border_m)
     }

@@ -7,6 +7,7 @@
 //! has a corner of body or square in it, whose track is a circle. A clothoid is swept as arcs with
 //! a proven deviation, which is taken off the clearance.
 
+mod along;
 mod arc;
 mod body;
 mod clothoid;
@@ -19,6 +20,7 @@ mod obstacle_map;
 mod overlap;
 mod sweep;
 
+pub use along::ClearanceAlong;
 pub use body::Body;
 pub use clothoid::{ClothoidDrive, NearbyDrive};
 pub use obstacle_map::ObstacleMap;

@@ -20,6 +20,38 @@ impl BitMask {
     /// The cells whose squares, grown by `reach`, touch any of some polygons that are moved by
     /// `at`; all in cells.
     pub(super) fn of(polygons: &[ConvexPolygon], at: Point2, reach: f64) -> Self {
+        let spans = RowSpans::of(polygons, at.y, reach);
+        let cols = spans.cols(at.x);
+        let n_cols = cols.clone().count();
+        let mut words = Vec::new();
+        spans.add_bits(at.x, &mut words);
+        Self {
+            low: (*cols.start(), spans.first_row),
+            n_cols,
+            words_per_row: n_cols.div_ceil(64),
+            words,
+        }
+    }
+}
+
+/// The columns between which convex polygons lie in each row of cells: what masks at several
+/// places along a row have in common. All in cells.
+#[derive(Debug)]
+pub(super) struct RowSpans {
+    /// The lowest row.
+    pub(super) first_row: i32,
+    n_rows: usize,
+    /// Lowest and highest x of all polygons.
+    bounds: (f64, f64),
+    reach: f64,
+    /// Lowest and highest x row by row, polygon after polygon; the wrong way round where a polygon
+    /// has no point.
+    spans: Vec<(f64, f64)>,
+}
+
+impl RowSpans {
+    /// The spans of polygons that are moved up by `y`, in rows grown by `reach` on both sides.
+    pub(super) fn of(polygons: &[ConvexPolygon], y: f64, reach: f64) -> Self {
         let bounds = polygons.iter().map(ConvexPolygon::bounds);
         let (low, high) = bounds
             .reduce(|(a, b), (c, d)| {
@@ -27,61 +59,82 @@ impl BitMask {
                 (low, Point2::new(b.x.max(d.x), b.y.max(d.y)))
             })
             .expect("a sweep has pieces");
-        let first = |v: f64| (v - reach).floor() as i32;
-        let last = |v: f64| (v + reach).floor() as i32;
-        let corner = (first(low.x + at.x), first(low.y + at.y));
-        let n_cols = (last(high.x + at.x) - corner.0 + 1) as usize;
-        let n_rows = (last(high.y + at.y) - corner.1 + 1) as usize;
-        let words_per_row = n_cols.div_ceil(64);
-        let mut words = vec![0; words_per_row * n_rows];
-        let shift = at - Point2::new(f64::from(corner.0), f64::from(corner.1));
-        for polygon in polygons {
-            let rows = rows_touched(polygon, shift, reach, n_rows);
-            for (words, (low, high)) in words.chunks_mut(words_per_row).zip(rows) {
+        let first_row = (low.y + y - reach).floor() as i32;
+        let n_rows = ((high.y + y + reach).floor() as i32 - first_row + 1) as usize;
+        let mut spans = vec![(f64::INFINITY, f64::NEG_INFINITY); polygons.len() * n_rows];
+        let up = y - f64::from(first_row);
+        for (polygon, rows) in polygons.iter().zip(spans.chunks_exact_mut(n_rows)) {
+            widen(rows, polygon, up, reach);
+        }
+        Self {
+            first_row,
+            n_rows,
+            bounds: (low.x, high.x),
+            reach,
+            spans,
+        }
+    }
+
+    /// The columns of a mask for polygons that are moved along the rows by `x`.
+    pub(super) fn cols(&self, x: f64) -> RangeInclusive<i32> {
+        let first = (self.bounds.0 + x - self.reach).floor() as i32;
+        first..=(self.bounds.1 + x + self.reach).floor() as i32
+    }
+
+    /// Appends the rows of this mask, as words.
+    pub(super) fn add_bits(&self, x: f64, words: &mut Vec<u64>) {
+        let cols = self.cols(x);
+        let words_per_row = cols.clone().count().div_ceil(64);
+        let begin = words.len();
+        words.resize(begin + words_per_row * self.n_rows, 0);
+        let right = x - f64::from(*cols.start());
+        for rows in self.spans.chunks_exact(self.n_rows) {
+            let words = words[begin..].chunks_exact_mut(words_per_row);
+            for (words, &(low, high)) in words.zip(rows) {
                 if low <= high {
-                    let cols = (low - reach).floor() as usize..=(high + reach).floor() as usize;
+                    // Columns count from the first one on: truncated is rounded down.
+                    let col = |v: f64| v as u32 as usize;
+                    let cols = col(low + right - self.reach)..=col(high + right + self.reach);
                     set_bits(words, cols);
                 }
             }
         }
-        Self {
-            low: corner,
-            n_cols,
-            words_per_row,
-            words,
-        }
     }
 }
 
-/// For each row of cells, grown by `reach`, the columns between which a shifted polygon lies.
-fn rows_touched(
-    polygon: &ConvexPolygon,
-    shift: Point2,
-    reach: f64,
-    n_rows: usize,
-) -> Vec<(f64, f64)> {
-    let mut rows = vec![(f64::INFINITY, f64::NEG_INFINITY); n_rows];
+/// Widens the span of each row by a polygon that is moved up by `up`. Its left sides go down, and
+/// its right sides go up.
+fn widen(rows: &mut [(f64, f64)], polygon: &ConvexPolygon, up: f64, reach: f64) {
     for (a, b) in polygon.edges() {
-        let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
-        let (a, b) = (a + shift, b + shift);
-        let slope = if b.y > a.y {
-            (b.x - a.x) / (b.y - a.y)
-        } else {
-            0.0
+        let (is_left, low, high) = match a.y.total_cmp(&b.y) {
+            std::cmp::Ordering::Less => (false, a, b),
+            std::cmp::Ordering::Greater => (true, b, a),
+            std::cmp::Ordering::Equal => continue,
         };
-        let first = (a.y - reach).floor().max(0.0) as usize;
-        let last = ((b.y + reach).floor() as usize).min(n_rows - 1);
+        let slope = (high.x - low.x) / (high.y - low.y);
+        let (from_y, to_y) = (low.y + up, high.y + up);
+        let first = (from_y - reach) as u32 as usize;
+        let last = ((to_y + reach) as u32 as usize).min(rows.len() - 1);
         for (i, row) in rows.iter_mut().enumerate().take(last + 1).skip(first) {
-            let band = (i as f64 - reach, i as f64 + 1.0 + reach);
-            let at = |y: f64| a.x + slope * (y - a.y);
-            let (from, to) = (
-                if a.y < band.0 { at(band.0) } else { a.x },
-                if b.y > band.1 { at(band.1) } else { b.x },
-            );
-            *row = (row.0.min(from.min(to)), row.1.max(from.max(to)));
+            // The row, grown; and the side's ends within it.
+            let (bottom, top) = (i as f64 - reach, i as f64 + 1.0 + reach);
+            let from = if from_y < bottom {
+                low.x + slope * (bottom - from_y)
+            } else {
+                low.x
+            };
+            let to = if to_y > top {
+                low.x + slope * (top - from_y)
+            } else {
+                high.x
+            };
+            if is_left {
+                row.0 = row.0.min(from.min(to));
+            } else {
+                row.1 = row.1.max(from.max(to));
+            }
         }
     }
-    rows
 }
 
 /// Sets a range of bits in a row of words.

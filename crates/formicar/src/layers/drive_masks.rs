@@ -1,8 +1,9 @@
 //! The cells that a vehicle's body sweeps on its motion primitives, as masks of bits.
 
-use super::bit_mask::{BitMask, ROUNDING};
+use super::bit_mask::{ROUNDING, RowSpans};
 use crate::geometry::{ConvexPolygon, Point2, Pose2};
 use crate::map::PaddedGrid;
+use crate::numeric::integer_below;
 use crate::vehicle::{Primitive, PrimitiveSet, Vehicle};
 use std::sync::OnceLock;
 
@@ -19,7 +20,7 @@ const PIECE_RAD: f64 = std::f64::consts::PI / 36.0;
 /// If a mask is clear, the motion is free from every position in that sixteenth of a cell. The
 /// reverse does not hold: masks are too large by up to a quarter of a cell each way, and by the
 /// excess of the hulls of their pieces. Sampling poses along an arc instead would miss the area
-/// that the swinging front corner sweeps between them. The masks of a heading are made when they
+/// that the swinging front corner sweeps between them. The masks of a motion are made when they
 /// are first asked for. Width and number of rows are not limited.
 #[derive(Clone, Debug)]
 pub struct DriveMasks {
@@ -27,19 +28,20 @@ pub struct DriveMasks {
     /// Corners of the body's convex parts around the rear axle, in meters.
     parts: Vec<Vec<Point2>>,
     resolution_m: f64,
-    by_heading: Vec<OnceLock<HeadingMasks>>,
+    /// Heading after heading, primitive after primitive.
+    by_motion: Vec<OnceLock<Box<MotionMasks>>>,
 }
 
-/// The masks of the primitives from one heading, each for all places in a cell.
-#[derive(Clone, Debug, Default)]
-struct HeadingMasks {
-    masks: Vec<Mask>,
+/// The masks of a primitive from one heading, for all places in a cell.
+#[derive(Clone, Debug)]
+struct MotionMasks {
+    masks: [Mask; SUB_CELLS * SUB_CELLS],
     /// The words of all masks, one after the other, so that they lie close together.
     words: Vec<u64>,
 }
 
-/// A [`BitMask`] whose words are a range of those of its heading.
-#[derive(Clone, Copy, Debug)]
+/// A mask whose words are a range of those of its motion.
+#[derive(Clone, Copy, Debug, Default)]
 struct Mask {
     low: (i32, i32),
     words_per_row: u32,
@@ -54,7 +56,7 @@ impl DriveMasks {
             parts: (vehicle.parts().iter())
                 .map(|part| part.corners().to_vec())
                 .collect(),
-            by_heading: vec![OnceLock::new(); lattice.n_headings()],
+            by_motion: vec![OnceLock::new(); lattice.n_headings() * lattice.primitives().len()],
             lattice,
             resolution_m,
         }
@@ -90,30 +92,23 @@ impl DriveMasks {
             position.x / self.resolution_m,
             position.y / self.resolution_m,
         );
-        let sub = |v: f64| (((v - v.floor()) * SUB_CELLS as f64) as usize).min(SUB_CELLS - 1);
-        let place = primitive * SUB_CELLS * SUB_CELLS + sub(y) * SUB_CELLS + sub(x);
-        let of_heading = self.of_heading(heading_index);
-        let mask = &of_heading.masks[place];
-        let corner = (
-            x.floor() as i64 + i64::from(mask.low.0),
-            y.floor() as i64 + i64::from(mask.low.1),
-        );
-        let words = &of_heading.words[mask.first as usize..mask.end as usize];
+        let (col, row) = (integer_below(x), integer_below(y));
+        let sub = |fraction: f64| ((fraction * SUB_CELLS as f64) as usize).min(SUB_CELLS - 1);
+        let place = sub(y - row as f64) * SUB_CELLS + sub(x - col as f64);
+        let of_motion = self.of_motion(heading_index, primitive);
+        let mask = &of_motion.masks[place];
+        let corner = (col + i64::from(mask.low.0), row + i64::from(mask.low.1));
+        let words = &of_motion.words[mask.first as usize..mask.end as usize];
         obstacles.is_clear(corner, words, mask.words_per_row as usize)
     }
 
-    fn of_heading(&self, heading_index: usize) -> &HeadingMasks {
-        self.by_heading[heading_index].get_or_init(|| {
-            let mut all = HeadingMasks::default();
-            for primitive in self.lattice.primitives() {
-                let swept = self.swept(primitive, self.lattice.heading_rad(heading_index));
-                for place in 0..SUB_CELLS * SUB_CELLS {
-                    let middle = |i: usize| (i as f64 + 0.5) / SUB_CELLS as f64;
-                    let at = Point2::new(middle(place % SUB_CELLS), middle(place / SUB_CELLS));
-                    all.add(&swept, at);
-                }
-            }
-            all
+    fn of_motion(&self, heading_index: usize, primitive: usize) -> &MotionMasks {
+        let primitives = self.lattice.primitives();
+        self.by_motion[heading_index * primitives.len() + primitive].get_or_init(|| {
+            let heading_rad = self.lattice.heading_rad(heading_index);
+            Box::new(MotionMasks::of(
+                &self.swept(&primitives[primitive], heading_rad),
+            ))
         })
     }
 
@@ -160,21 +155,30 @@ struct Swept {
     sagitta: f64,
 }
 
-impl HeadingMasks {
-    /// Adds the mask of what is swept from places around `at` in the cell (0, 0), corner at the
-    /// origin.
-    fn add(&mut self, swept: &Swept, at: Point2) {
-        // The least distance of a free cell: `at` stands for a square of positions.
+impl MotionMasks {
+    /// The masks of what is swept from places in the cell (0, 0), corner at the origin.
+    fn of(swept: &Swept) -> Self {
+        // The least distance of a free cell: a place stands for a square of positions.
         let reach = 0.5 / SUB_CELLS as f64 + swept.sagitta + ROUNDING;
-        let mask = BitMask::of(&swept.hulls, at, reach);
-        let first = self.words.len() as u32;
-        self.words.extend(&mask.words);
-        self.masks.push(Mask {
-            low: mask.low,
-            words_per_row: mask.words_per_row as u32,
-            first,
-            end: self.words.len() as u32,
-        });
+        let middle = |i: usize| (i as f64 + 0.5) / SUB_CELLS as f64;
+        let mut masks = [Mask::default(); SUB_CELLS * SUB_CELLS];
+        let mut words = Vec::new();
+        for (i, masks) in masks.chunks_exact_mut(SUB_CELLS).enumerate() {
+            let spans = RowSpans::of(&swept.hulls, middle(i), reach);
+            for (j, mask) in masks.iter_mut().enumerate() {
+                let cols = spans.cols(middle(j));
+                let first = words.len() as u32;
+                spans.add_bits(middle(j), &mut words);
+                *mask = Mask {
+                    low: (*cols.start(), spans.first_row),
+                    words_per_row: cols.count().div_ceil(64) as u32,
+                    first,
+                    end: words.len() as u32,
+                };
+            }
+        }
+        words.shrink_to_fit();
+        Self { masks, words }
     }
 }
 

@@ -17,24 +17,24 @@ use std::ops::Range;
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Components {
-    n_cols: usize,
+    /// Runs of free cells, row by row.
+    runs: Vec<Run>,
+    /// Where each row's runs start, with the end of the last.
+    row_starts: Vec<usize>,
+    /// The component of each run.
     labels: Vec<u32>,
     sizes: Vec<u32>,
 }
-
-/// Label of a blocked cell.
-const BLOCKED: u32 = u32::MAX;
 
 /// Rows, and runs, between two questions whether to go on.
 const ROWS_PER_LOOK: usize = 64;
 const RUNS_PER_LOOK: usize = 1024;
 
 /// Free cells of a row from column `first` up to, but not including, `end`.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Run {
-    row: usize,
-    first: usize,
-    end: usize,
+    first: u32,
+    end: u32,
 }
 
 impl Components {
@@ -60,11 +60,12 @@ impl Components {
             join_rows(&runs, &mut sets, (below, above), connectivity);
         }
         let mut components = Self {
-            n_cols: blocked.n_cols(),
-            labels: vec![BLOCKED; blocked.n_cols() * blocked.n_rows()],
+            labels: Vec::with_capacity(runs.len()),
+            runs,
+            row_starts,
             sizes: Vec::new(),
         };
-        components.label_runs(&runs, &mut sets, goes_on);
+        components.label_runs(&mut sets, goes_on);
         components
     }
 
@@ -75,8 +76,12 @@ impl Components {
 
     /// The component of a cell, in `0..n_components`; none if the cell is blocked.
     pub fn label(&self, cell: Cell) -> Option<u32> {
-        let label = self.labels[cell.row as usize * self.n_cols + cell.col as usize];
-        (label != BLOCKED).then_some(label)
+        let row = self.row_starts.get(cell.row as usize..)?;
+        let row = *row.first()?..*row.get(1)?;
+        let n_before = self.runs[row.clone()].partition_point(|run| run.end <= cell.col);
+        let place = row.start + n_before;
+        let is_free = place < row.end && self.runs[place].first <= cell.col;
+        self.labels.get(place).copied().filter(|_| is_free)
     }
 
     /// Cells of each component.
@@ -96,21 +101,20 @@ impl Components {
             .is_some_and(|label| self.label(b) == Some(label))
     }
 
-    /// Numbers the sets of runs and writes the numbers to the cells.
-    fn label_runs(&mut self, runs: &[Run], sets: &mut [u32], goes_on: &mut dyn FnMut() -> bool) {
-        let mut label_of_root = vec![BLOCKED; runs.len()];
-        for (i, run) in runs.iter().enumerate() {
+    /// Numbers the sets of runs.
+    fn label_runs(&mut self, sets: &mut [u32], goes_on: &mut dyn FnMut() -> bool) {
+        for (i, run) in self.runs.iter().enumerate() {
             if i.is_multiple_of(RUNS_PER_LOOK) && !goes_on() {
                 return;
             }
+            // The leader is the set's first run, so it is labeled before the others.
             let root = find(sets, i as u32) as usize;
-            if label_of_root[root] == BLOCKED {
-                label_of_root[root] = self.sizes.len() as u32;
+            let label = self.labels.get(root).copied().unwrap_or_else(|| {
                 self.sizes.push(0);
-            }
-            let label = label_of_root[root];
-            self.sizes[label as usize] += (run.end - run.first) as u32;
-            self.labels[run.row * self.n_cols..][run.first..run.end].fill(label);
+                self.sizes.len() as u32 - 1
+            });
+            self.labels.push(label);
+            self.sizes[label as usize] += run.end - run.first;
         }
     }
 }
@@ -124,9 +128,8 @@ fn free_runs(blocked: &BitGrid, goes_on: &mut dyn FnMut() -> bool) -> (Vec<Run>,
             break;
         }
         runs.extend(blocked.gaps(row).map(|gap| Run {
-            row,
-            first: gap.start,
-            end: gap.end,
+            first: gap.start as u32,
+            end: gap.end as u32,
         }));
         row_starts.push(runs.len());
     }

@@ -1,21 +1,14 @@
 //! Distance of every cell to the nearest obstacle: exact, Euclidean, truncated.
 
+use super::distance_transform::{LANES, squared_distances};
 use super::{BitGrid, Cell, CellRegion};
-use std::ops::Range;
-
-/// Cells handled together: a few vector registers of 16-bit lanes.
-const LANES: usize = 32;
-
-/// Column offsets tried between two looks at the bound that ends the row pass.
-const OFFSETS_PER_LOOK: usize = 4;
+use std::sync::OnceLock;
 
 /// Squared distances between cell centers, in cells, to the nearest obstacle cell.
 ///
 /// Values at or beyond the truncation are saturated to its square. The border of the map is no
-/// obstacle. The transform is separable: a pass along the columns counts cells to the nearest
-/// obstacle above and below, a pass along the rows takes the lower envelope of parabolas
-/// (Felzenszwalb & Huttenlocher 2012), here as a plain minimum over the offsets that the
-/// truncation allows, many cells at once, ended as soon as no farther offset can matter.
+/// obstacle. Distances are computed tile by tile when they are first asked for, so that a query
+/// pays for the part of the map that it looks at.
 ///
 /// ```
 /// use formicar::OccupancyGrid;
@@ -27,13 +20,22 @@ const OFFSETS_PER_LOOK: usize = 4;
 /// assert_eq!(field.within(1.0).unwrap().count(), 3);
 /// # Ok::<(), formicar::MapError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct DistanceField {
-    n_cols: usize,
-    n_rows: usize,
+    obstacles: BitGrid,
     truncation_cells: u16,
-    squared: Vec<u16>,
+    n_tile_cols: usize,
+    /// Squared distances, row by row within a tile; tiles row by row.
+    tiles: Vec<OnceLock<Box<Tile>>>,
 }
+
+/// Side of a tile, cells: a few truncations, since a tile is computed from what lies within one
+/// around it.
+const SIDE: usize = 128;
+
+type Tile = [u16; SIDE * SIDE];
+
+const _: () = assert!(SIDE.is_multiple_of(LANES));
 
 impl DistanceField {
     /// A truncation that serves vehicles up to a few meters at usual resolutions.
@@ -43,52 +45,74 @@ impl DistanceField {
 
     /// The distance field of a set of obstacle cells.
     ///
-    /// `truncation_cells` is clamped to 1..=[`Self::MAX_TRUNCATION_CELLS`]. The cost grows with
-    /// cells times truncation where the map is open, and less where obstacles are near.
-    pub fn new(lethal: &BitGrid, truncation_cells: u32) -> Self {
-        let truncation = truncation_cells.clamp(1, Self::MAX_TRUNCATION_CELLS) as u16;
-        let (n_cols, n_rows) = (lethal.n_cols(), lethal.n_rows());
+    /// `truncation_cells` is clamped to 1..=[`Self::MAX_TRUNCATION_CELLS`]. The cost of a tile
+    /// grows with the truncation where the map is open, and is less where obstacles are near.
+    pub fn new(obstacles: &BitGrid, truncation_cells: u32) -> Self {
+        let n_tile_cols = obstacles.n_cols().div_ceil(SIDE);
+        let n_tiles = n_tile_cols * obstacles.n_rows().div_ceil(SIDE);
         Self {
-            n_cols,
-            n_rows,
-            truncation_cells: truncation,
-            squared: squared_distances(lethal, truncation, 0..n_rows),
+            obstacles: obstacles.clone(),
+            truncation_cells: truncation_cells.clamp(1, Self::MAX_TRUNCATION_CELLS) as u16,
+            n_tile_cols,
+            tiles: vec![OnceLock::new(); n_tiles],
         }
     }
 
     /// The cells whose distance may depend on a rectangle of obstacle cells.
     pub fn reach(&self, changed: &CellRegion) -> CellRegion {
-        changed.grown(usize::from(self.truncation_cells), self.n_cols, self.n_rows)
+        changed.grown(
+            usize::from(self.truncation_cells),
+            self.n_cols(),
+            self.n_rows(),
+        )
     }
 
-    /// Works out anew what may depend on a changed rectangle of obstacle cells: the same bits as a
-    /// field that is made anew, at a cost that grows with the rectangle grown by twice the
-    /// truncation.
-    pub fn refresh(&mut self, lethal: &BitGrid, changed: &CellRegion) {
-        let inner = self.reach(changed);
-        // Whatever decides these distances lies in here.
-        let outer = self.reach(&inner);
-        let first_col = outer.cols().start / 64 * 64;
-        let window = lethal.window(first_col..outer.cols().end, outer.rows());
-        let low = outer.rows().start;
-        let rows = inner.rows().start - low..inner.rows().end - low;
-        let fresh = squared_distances(&window, self.truncation_cells, rows);
-        for row in inner.rows() {
-            let source = &fresh[(row - low) * window.n_cols()..][..window.n_cols()];
-            let cols = inner.cols();
-            let source = &source[cols.start - first_col..cols.end - first_col];
-            self.squared[row * self.n_cols..][cols].copy_from_slice(source);
+    /// Takes over a rectangle of obstacle cells that has changed: the same bits as a field that is
+    /// made anew, at a cost that grows with the rectangle grown by twice the truncation.
+    pub fn refresh(&mut self, obstacles: &BitGrid, changed: &CellRegion) {
+        for row in changed.rows() {
+            self.obstacles
+                .row_mut(row)
+                .copy_from_slice(obstacles.row(row));
+        }
+        let reach = self.reach(changed);
+        let tiles = |range: std::ops::Range<usize>| range.start / SIDE..range.end.div_ceil(SIDE);
+        for tile_row in tiles(reach.rows()) {
+            for tile_col in tiles(reach.cols()) {
+                self.refresh_tile((tile_col, tile_row), &reach);
+            }
+        }
+    }
+
+    /// Computes anew the part of a tile that lies in a rectangle, if the tile was asked for.
+    fn refresh_tile(&mut self, (tile_col, tile_row): (usize, usize), reach: &CellRegion) {
+        let place = tile_row * self.n_tile_cols + tile_col;
+        let Some(tile) = self.tiles[place].get_mut() else {
+            return;
+        };
+        let within = |range: std::ops::Range<usize>, tile: usize| {
+            range.start.max(tile * SIDE)..range.end.min((tile + 1) * SIDE)
+        };
+        let (mut cols, rows) = (
+            within(reach.cols(), tile_col),
+            within(reach.rows(), tile_row),
+        );
+        cols.start = cols.start / LANES * LANES;
+        let cells = CellRegion::of_ranges(&cols, &rows);
+        let fresh = squared_distances(&self.obstacles, self.truncation_cells, &cells);
+        for (row, fresh) in rows.zip(fresh.chunks_exact(cols.len())) {
+            tile[row % SIDE * SIDE + cols.start % SIDE..][..cols.len()].copy_from_slice(fresh);
         }
     }
 
     /// Number of columns.
     pub fn n_cols(&self) -> usize {
-        self.n_cols
+        self.obstacles.n_cols()
     }
 
     /// Number of rows.
     pub fn n_rows(&self) -> usize {
-        self.n_rows
+        self.obstacles.n_rows()
     }
 
     /// Distances from this one on are not told apart, cells.
@@ -97,23 +121,27 @@ impl DistanceField {
     }
 
     /// Squared distance of a cell, in squared cells; at most the squared truncation.
+    #[inline]
     pub fn squared(&self, col: usize, row: usize) -> u16 {
-        self.squared[row * self.n_cols + col]
+        self.tile(col, row)[row % SIDE * SIDE + col % SIDE]
+    }
+
+    /// The squared distances of two columns in one row, and of the same in another.
+    #[inline]
+    pub(crate) fn squared_of_four(&self, cols: [usize; 2], rows: [usize; 2]) -> [[u16; 2]; 2] {
+        let is_in_one_tile = cols[0] / SIDE == cols[1] / SIDE && rows[0] / SIDE == rows[1] / SIDE;
+        if is_in_one_tile {
+            let tile = self.tile(cols[0], rows[0]);
+            rows.map(|row| cols.map(|col| tile[row % SIDE * SIDE + col % SIDE]))
+        } else {
+            rows.map(|row| cols.map(|col| self.squared(col, row)))
+        }
     }
 
     /// The squared distances of all cells, row by row, lowest row first.
-    pub fn as_slice(&self) -> &[u16] {
-        &self.squared
-    }
-
-    /// The squared distances of a row.
-    pub fn row(&self, row: usize) -> &[u16] {
-        &self.squared[row * self.n_cols..][..self.n_cols]
-    }
-
-    /// The squared distances row by row, lowest row first.
-    pub fn rows(&self) -> impl ExactSizeIterator<Item = &[u16]> {
-        (0..self.n_rows).map(|row| self.row(row))
+    pub fn values(&self) -> impl Iterator<Item = u16> + '_ {
+        let rows = 0..self.n_rows();
+        rows.flat_map(move |row| (0..self.n_cols()).map(move |col| self.squared(col, row)))
     }
 
     /// Distance of a cell's center to the nearest obstacle cell's center, cells; at most the
@@ -122,15 +150,14 @@ impl DistanceField {
         f64::from(self.squared(cell.col as usize, cell.row as usize)).sqrt()
     }
 
-    /// The cells at a distance of at most `radius_cells`: obstacles grown by that radius.
+    /// The cells at a distance of at most `radius_cells`: obstacles grown by that radius. No tile
+    /// is computed for it.
     ///
     /// None if the radius is negative, not a number, or not below the truncation, where the field
     /// cannot tell.
     pub fn within(&self, radius_cells: f64) -> Option<BitGrid> {
-        let limit = self.square_within(radius_cells)?;
-        Some(BitGrid::of_values(self.n_cols, &self.squared, |d| {
-            d <= limit
-        }))
+        let squared = self.square_within(radius_cells)?;
+        Some(self.obstacles.grown(squared))
     }
 
     /// The largest squared distance, as [`Self::squared`] tells it, that is within a radius; none
@@ -146,142 +173,42 @@ impl DistanceField {
         }
         Some(limit)
     }
-}
 
-/// The squared distances of some rows; of the others, something else.
-fn squared_distances(lethal: &BitGrid, truncation: u16, rows: Range<usize>) -> Vec<u16> {
-    let n_cols = lethal.n_cols();
-    let mut squared = distances_below(lethal, truncation);
-    let mut rows_above = vec![truncation; n_cols.next_multiple_of(64)];
-    let mut sweep = RowSweep::new(n_cols, truncation);
-    for row in (rows.start..lethal.n_rows()).rev() {
-        extend_runs(&mut rows_above, lethal.row(row), truncation);
-        if rows.contains(&row) {
-            let cells = &mut squared[row * n_cols..][..n_cols];
-            sweep.load(&rows_above, cells);
-            sweep.store(cells);
+    #[inline]
+    fn tile(&self, col: usize, row: usize) -> &Tile {
+        let (tile_col, tile_row) = (col / SIDE, row / SIDE);
+        let tile = &self.tiles[tile_row * self.n_tile_cols + tile_col];
+        tile.get_or_init(|| self.computed(tile_col, tile_row))
+    }
+
+    #[cold]
+    fn computed(&self, tile_col: usize, tile_row: usize) -> Box<Tile> {
+        let range = |tile: usize, n: usize| tile * SIDE..((tile + 1) * SIDE).min(n);
+        let (cols, rows) = (
+            range(tile_col, self.n_cols()),
+            range(tile_row, self.n_rows()),
+        );
+        let cells = CellRegion::of_ranges(&cols, &rows);
+        let squared = squared_distances(&self.obstacles, self.truncation_cells, &cells);
+        let mut tile = vec![0; SIDE * SIDE];
+        for (target, source) in tile
+            .chunks_exact_mut(SIDE)
+            .zip(squared.chunks_exact(cols.len()))
+        {
+            target[..cols.len()].copy_from_slice(source);
         }
-    }
-    squared
-}
-
-/// For every cell the rows down to the nearest obstacle of its column, at most the truncation.
-fn distances_below(lethal: &BitGrid, truncation: u16) -> Vec<u16> {
-    let n_cols = lethal.n_cols();
-    let mut below = Vec::with_capacity(n_cols * lethal.n_rows());
-    let mut runs = vec![truncation; n_cols.next_multiple_of(64)];
-    for row in 0..lethal.n_rows() {
-        extend_runs(&mut runs, lethal.row(row), truncation);
-        below.extend_from_slice(&runs[..n_cols]);
-    }
-    below
-}
-
-/// Each bit of 16 in a lane of its own.
-const BITS: [u16; 16] = {
-    let mut bits = [0; 16];
-    let mut i = 0;
-    while i < 16 {
-        bits[i] = 1 << i;
-        i += 1;
-    }
-    bits
-};
-
-/// Steps to the next row: runs of free cells grow by one, up to the limit, or end at an obstacle.
-fn extend_runs(runs: &mut [u16], obstacles: &[u64], limit: u16) {
-    for (runs, &word) in runs.as_chunks_mut::<64>().0.iter_mut().zip(obstacles) {
-        for (i, runs) in runs.as_chunks_mut::<16>().0.iter_mut().enumerate() {
-            let obstacles = (word >> (16 * i)) as u16;
-            for (run, bit) in runs.iter_mut().zip(BITS) {
-                let keep = if obstacles & bit == 0 { u16::MAX } else { 0 };
-                *run = (*run + 1).min(limit) & keep;
-            }
-        }
+        tile.try_into().expect("as long as a tile")
     }
 }
 
-/// The pass along one row.
-///
-/// It works on nearness, truncation squared minus distance squared: 0 is far away or off the map,
-/// and saturating subtraction does the truncation.
-struct RowSweep {
-    /// Nearness along the columns alone, with zeros beyond both ends of the row.
-    near: Vec<u16>,
-    /// The largest nearness of each block of `near`.
-    peaks: Vec<u16>,
-    n_pad_blocks: usize,
-    truncation: u16,
-}
-
-impl RowSweep {
-    fn new(n_cols: usize, truncation: u16) -> Self {
-        let n_pad_blocks = (usize::from(truncation) + OFFSETS_PER_LOOK).div_ceil(LANES);
-        let n_blocks = n_cols.div_ceil(LANES) + 2 * n_pad_blocks;
-        Self {
-            near: vec![0; n_blocks * LANES],
-            peaks: vec![0; n_blocks],
-            n_pad_blocks,
-            truncation,
-        }
-    }
-
-    /// Takes in the distances of a row along the columns, upward and downward.
-    fn load(&mut self, above: &[u16], below: &[u16]) {
-        let far = self.truncation * self.truncation;
-        let near = &mut self.near[self.n_pad_blocks * LANES..];
-        for ((near, &above), &below) in near.iter_mut().zip(above).zip(below) {
-            let distance = above.min(below);
-            *near = far - distance * distance;
-        }
-        for (peak, block) in self.peaks.iter_mut().zip(self.near.as_chunks::<LANES>().0) {
-            *peak = block.iter().fold(0, |peak, &near| peak.max(near));
-        }
-    }
-
-    /// Writes the squared distances of the row.
-    fn store(&self, squared: &mut [u16]) {
-        let far = self.truncation * self.truncation;
-        for (block, squared) in squared.chunks_mut(LANES).enumerate() {
-            let window = &self.peaks[block..][..=2 * self.n_pad_blocks];
-            let peak = window.iter().fold(0, |peak, &near| peak.max(near));
-            let near = self.block(block + self.n_pad_blocks, peak);
-            for (squared, near) in squared.iter_mut().zip(near) {
-                *squared = far - near;
-            }
-        }
-    }
-
-    /// The nearness of a block whose neighborhood reaches up to `peak` along the columns.
-    fn block(&self, block: usize, peak: u16) -> [u16; LANES] {
-        let start = block * LANES;
-        let mut best = lanes(&self.near, start);
-        let mut first = 1;
-        while first < usize::from(self.truncation) {
-            let worst = best.iter().fold(u16::MAX, |worst, &near| worst.min(near));
-            if usize::from(worst) + first * first >= usize::from(peak) {
-                break;
-            }
-            for offset in first..first + OFFSETS_PER_LOOK {
-                // Offsets past the truncation change nothing, whatever their saturated square.
-                let step = (offset * offset).min(usize::from(u16::MAX)) as u16;
-                let left = lanes(&self.near, start - offset);
-                let right = lanes(&self.near, start + offset);
-                for ((best, left), right) in best.iter_mut().zip(left).zip(right) {
-                    *best = (*best).max(left.max(right).saturating_sub(step));
-                }
-            }
-            first += OFFSETS_PER_LOOK;
-        }
-        best
+impl PartialEq for DistanceField {
+    /// Distances are a function of these, computed or not.
+    fn eq(&self, other: &Self) -> bool {
+        self.truncation_cells == other.truncation_cells && self.obstacles == other.obstacles
     }
 }
 
-fn lanes(values: &[u16], start: usize) -> [u16; LANES] {
-    *values[start..]
-        .first_chunk()
-        .expect("rows are padded beyond the largest offset")
-}
+impl Eq for DistanceField {}
 
 #[cfg(test)]
 mod tests {
@@ -320,7 +247,7 @@ mod tests {
     fn without_obstacles_all_is_far() {
         let field = DistanceField::new(&BitGrid::new(5, 2), 1000);
         assert_eq!(field.truncation_cells(), 255);
-        assert!(field.rows().flatten().all(|&d| d == 255 * 255));
+        assert!(field.values().all(|d| d == 255 * 255));
         assert_eq!(field.distance_cells(Cell::new(4, 1)), 255.0);
     }
 

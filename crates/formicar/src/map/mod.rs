@@ -5,7 +5,9 @@ pub mod builtin;
 mod cell;
 mod components;
 mod costmap;
+mod dilation;
 mod distance;
+mod distance_transform;
 mod error;
 #[cfg(feature = "formats")]
 pub mod format;

@@ -1,7 +1,7 @@
 //! Exact metrics, from the segments of a path.
 
 use super::SteeringShare;
-use crate::collision::{Body, Drive, ObstacleMap};
+use crate::collision::{Body, ClearanceAlong, ObstacleMap};
 use crate::geometry::{Pose2, angle_difference};
 use crate::path::{CurvePath, CurveSegment};
 use crate::vehicle::Vehicle;
@@ -36,18 +36,7 @@ impl ClearanceSummary {
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Self {
         let body = Body::new(vehicle);
-        let clearance = |pose: Pose2, limit_m: f64| {
-            let here = Drive::at(obstacles.frame().to_grid(pose));
-            obstacles.drive_clearance_m(&body, &here, limit_m)
-        };
-        // From one sample to the next no point of the body moves farther than this, and the
-        // clearance grows by no more: what is looked for lies near.
-        let curvatures = path
-            .segments()
-            .iter()
-            .map(CurveSegment::max_abs_curvature_per_m);
-        let lever = 1.0 + curvatures.fold(0.0, f64::max) * body.reach_m();
-        let mut last_m = f64::INFINITY;
+        let mut clearance = ClearanceAlong::new(obstacles, &body);
         let mut clearance_integral = 0.0;
         for segment in path.segments() {
             // Mid points of equal steps: each stands for as much arc length as any other.
@@ -55,18 +44,15 @@ impl ClearanceSummary {
             let step_m = segment.length_m / n_steps;
             let at_steps = (0..n_steps as usize)
                 .take_while(|i| !i.is_multiple_of(Self::SAMPLES_PER_LOOK) || goes_on());
-            let at_steps = at_steps.map(|i| {
-                let pose = segment.pose_at((i as f64 + 0.5) * step_m);
-                last_m = clearance(pose, last_m + lever * Self::SPACING_M);
-                last_m
-            });
+            let at_steps =
+                at_steps.map(|i| clearance.at_m(segment.pose_at((i as f64 + 0.5) * step_m)));
             clearance_integral += at_steps.sum::<f64>() * step_m;
         }
         let length_m = path.length_m();
         let mean_m = if length_m > 0.0 {
             clearance_integral / length_m
         } else {
-            clearance(path.start(), f64::INFINITY)
+            clearance.at_m(path.start())
         };
         let mean_m = mean_m.max(min_m);
         Self { min_m, mean_m }

@@ -221,7 +221,8 @@ impl Run<'_> {
             return Err(self.unavoidable(&forbidden, 0));
         }
         let mut reached = Reached::new(&lattice, &forbidden);
-        while reached.last() < forbidden.settled().max(lead.layer) {
+        // One step more: what is left then is outside of what stays closed.
+        while reached.last() <= forbidden.settled().max(lead.layer) {
             reached.advance();
             if !reached.is_alive() {
                 return Err(self.unavoidable(&forbidden, reached.last() - 1));

@@ -75,6 +75,8 @@ const SLACK: f64 = 1.03;
 const MIN_SPEEDS: f64 = 8.0;
 /// The most changes of speed that one step offers to either side.
 const MAX_CHANGE: f64 = 12.0;
+/// So many quanta are tried for a speed.
+const MAX_TRIES: usize = 1000;
 /// Bounds that differ by less, relative to the larger, are one.
 const SAME: f64 = 1e-9;
 
@@ -110,11 +112,24 @@ pub(super) fn fitted(
     let end_m = steps.last().map_or(begin.s_m, Step::end_m);
     let grain = Grain::of(limits);
     let quantum = speed_step_mps(top_mps, limits, time_step_s);
-    let n_quanta = grain.speed_quanta(begin.speed_mps, quantum);
-    let quantum = begin.speed_mps / n_quanta as f64;
-    let unit_m = quantum * time_step_s / grain.per_unit;
-    let n_units = grain.units((end_m - begin.s_m) / unit_m, n_quanta);
-    let fitting_s = (end_m - begin.s_m) * grain.per_unit / (quantum * n_units as f64);
+    let first = grain.speed_quanta(begin.speed_mps, quantum);
+    // The shorter time step must still allow a change of the acceleration by one.
+    let fits = (0..MAX_TRIES).map(|i| {
+        let n_quanta = first + i * grain.even_speed;
+        let quantum = begin.speed_mps / n_quanta as f64;
+        let unit_m = quantum * time_step_s / grain.per_unit;
+        let n_units = grain.units((end_m - begin.s_m) / unit_m, n_quanta);
+        let fitting_s = (end_m - begin.s_m) * grain.per_unit / (quantum * n_units as f64);
+        (quantum, n_units, fitting_s)
+    });
+    let is_smooth = |&(quantum, _, fitting_s): &(f64, usize, f64)| {
+        let jerk = limits.max_jerk_mps3.unwrap_or(f64::INFINITY);
+        quantum <= 0.5 * jerk * fitting_s * fitting_s
+    };
+    let mut fits = fits.filter(is_smooth);
+    let Some((_, n_units, fitting_s)) = fits.next() else {
+        return (time_step_s, begin);
+    };
     let begin = Begin {
         n_units: Some(n_units),
         ..begin

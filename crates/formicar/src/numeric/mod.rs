@@ -5,6 +5,7 @@ mod fractional;
 mod gamma;
 mod golden_section;
 mod random;
+mod rounding;
 mod runge_kutta;
 mod words;
 
@@ -13,5 +14,6 @@ pub use fractional::{FractionalDerivative, FractionalStream, grunwald_letnikov_w
 pub use gamma::ln_gamma;
 pub use golden_section::golden_section;
 pub use random::{RandomStream, Seed};
+pub(crate) use rounding::integer_below;
 pub use runge_kutta::rk4_step;
 pub use words::counted;

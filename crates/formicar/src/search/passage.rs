@@ -60,12 +60,11 @@ pub(crate) fn widest_way_out(
     if !is_on(distance, from) {
         return None;
     }
-    let n_cols = distance.n_cols();
-    let clear = distance.as_slice();
+    let (n_cols, n_cells) = (distance.n_cols(), distance.n_cols() * distance.n_rows());
     let start = from.row as usize * n_cols + from.col as usize;
-    let mut came_by = vec![UNSEEN; clear.len()];
-    let mut level = usize::from(clear[start]);
-    let mut stacks = Stacks::new(clear.len(), level);
+    let mut came_by = vec![UNSEEN; n_cells];
+    let mut level = usize::from(distance.squared(from.col as usize, from.row as usize));
+    let mut stacks = Stacks::new(n_cells, level);
     came_by[start] = FIRST;
     stacks.push(level, start);
     let mut n_popped = 0_usize;
@@ -91,11 +90,12 @@ pub(crate) fn widest_way_out(
                 continue;
             }
             let next = to_row * n_cols + to_col;
+            let clear = distance.squared(to_col, to_row);
             let squeezes =
-                || clear[row * n_cols + to_col] == 0 && clear[to_row * n_cols + col] == 0;
-            if came_by[next] == UNSEEN && clear[next] > 0 && !squeezes() {
+                || distance.squared(to_col, row) == 0 && distance.squared(col, to_row) == 0;
+            if came_by[next] == UNSEEN && clear > 0 && !squeezes() {
                 came_by[next] = step as u8;
-                stacks.push(level.min(usize::from(clear[next])), next);
+                stacks.push(level.min(usize::from(clear)), next);
             }
         }
     }

@@ -22,7 +22,7 @@ the run; `check` repeats it on the answers that --paths keeps. Length at 0.1 s a
 the best path found by then, counted from the beginning of the query; its clearance and cusps are \
 known where it is the last.")]
 pub(crate) struct BenchArgs {
-    /// Car scenarios (.json), TPCAP cases (.csv), MovingAI scenarios (.scen, for astar and dijkstra
+    /// Car scenarios or worlds of BARN (.json), TPCAP cases (.csv), MovingAI scenarios (.scen, for astar and dijkstra
     /// with the point vehicle, the .map beside them), names of built-in maps (all their requests),
     /// `narrow` (the narrow set) or `builtin` (all built-in maps); or one campaign file (.toml).
     #[arg(required = true, value_hint = ValueHint::FilePath)]
@@ -72,7 +72,11 @@ pub(crate) struct BenchArgs {
           value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub(crate) jobs: u32,
 
-    /// Take N lines of every .scen file, evenly spread from first to last.
+    /// The vehicle instead of each scenario's own: a preset or a vehicle file.
+    #[arg(long, value_name = "V", value_hint = ValueHint::FilePath)]
+    pub(crate) vehicle: Option<String>,
+
+    /// Take N lines of every .scen file, or worlds of BARN, evenly spread from first to last.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) limit: Option<u32>,
 
@@ -117,6 +121,7 @@ impl BenchArgs {
             ("--seeds", self.seeds.is_some()),
             ("--motion", self.motion.is_some()),
             ("--cold", self.cold),
+            ("--vehicle", self.vehicle.is_some()),
             ("--limit", self.limit.is_some()),
             ("--budget", self.budget.is_some()),
             ("--deadline", self.deadline.is_some()),
@@ -143,7 +148,7 @@ impl BenchArgs {
 
     /// What all rows of a table share: runs under other conditions do not belong in it.
     pub(crate) fn conditions(&self) -> Value {
-        json!({
+        let mut conditions = json!({
             "schema": "formicar/bench/2",
             "version": env!("CARGO_PKG_VERSION"),
             "processor": machine::processor(),
@@ -152,6 +157,11 @@ impl BenchArgs {
             "budget_steps": self.budget,
             "deadline_ms": self.deadline,
             "set": self.set,
-        })
+        });
+        // Folders of before know no vehicle.
+        if let Some(vehicle) = &self.vehicle {
+            conditions["vehicle"] = json!(vehicle);
+        }
+        conditions
     }
 }

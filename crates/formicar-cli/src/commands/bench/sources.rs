@@ -2,9 +2,12 @@
 
 use crate::scene::{self, SceneArgs};
 use crate::settings;
-use anyhow::Result;
-use formicar::planner::PlannerConfig;
-use formicar_lab::run::{Contender, LoadedScenario, Place, Sources, Task};
+use anyhow::{Context, Result};
+use formicar::planner::{MapRecord, PlannerConfig};
+use formicar_lab::run::{
+    BARN_VEHICLE, BarnWorlds, Contender, LoadedScenario, Place, Sources, Task,
+};
+use std::path::Path;
 
 /// Reads built-in maps and files, as `plan` does.
 #[derive(Clone, Copy, Debug)]
@@ -12,6 +15,14 @@ pub(crate) struct Files;
 
 impl Sources for Files {
     fn load(&self, task: &Task, vehicle: Option<&str>) -> Result<LoadedScenario> {
+        if let Place::Barn {
+            path,
+            world,
+            resolution_m,
+        } = &task.place
+        {
+            return barn(path, (*world, *resolution_m), vehicle);
+        }
         let scene = scene::load(&scene_args(task, vehicle))?;
         Ok(LoadedScenario {
             map: scene.map,
@@ -27,6 +38,28 @@ impl Sources for Files {
         let table = settings::merge(table, &contender.name, &[], Some(contender.planner))?;
         settings::typed(&table)
     }
+}
+
+/// A world of BARN, with the vehicle that is named or the default one.
+fn barn(
+    path: &Path,
+    (world, resolution_m): (u32, f64),
+    vehicle: Option<&str>,
+) -> Result<LoadedScenario> {
+    let worlds = BarnWorlds::read(path)?;
+    let worlds = worlds.with_context(|| format!("{}: no worlds of BARN", path.display()))?;
+    let map = worlds.grid(world, resolution_m);
+    let vehicle = scene::vehicle(vehicle.unwrap_or(BARN_VEHICLE))?;
+    Ok(LoadedScenario {
+        map: map.with_context(|| path.display().to_string())?,
+        map_record: MapRecord {
+            name: path.display().to_string(),
+            ..MapRecord::default()
+        },
+        vehicle: vehicle.vehicle,
+        vehicle_name: vehicle.name,
+        ends: Some(worlds.ends()),
+    })
 }
 
 /// The flags of `plan` for the scenario of a task.
@@ -46,6 +79,8 @@ fn scene_args(task: &Task, vehicle: Option<&str>) -> SceneArgs {
             resolution: *resolution_m,
             ..blank
         },
+        // Loaded without flags.
+        Place::Barn { .. } => blank,
         Place::Builtin { map, request } => SceneArgs {
             map: Some(map.clone()),
             request: Some(request.clone()),

@@ -1,11 +1,11 @@
 //! From flags to a campaign: planners, or one planner with parts of it left out.
 
 use super::{BenchArgs, Files};
-use crate::settings;
+use crate::{scene, settings};
 use anyhow::Result;
 use formicar::planner::PlannerName;
 use formicar_lab::campaign::{CampaignSpec, TaskSource, check_names, tasks_of};
-use formicar_lab::run::{Contender, Task};
+use formicar_lab::run::{Contender, Task, VehicleChoice};
 use toml::Table;
 
 /// Formicar with parts left out.
@@ -34,11 +34,23 @@ pub(super) fn spec(args: &BenchArgs) -> Result<CampaignSpec> {
         name: "bench".to_owned(),
         text: format!("{} {}\n", args.scenarios.join(" "), args.conditions()),
         tasks: tasks(args, &contenders)?,
-        vehicles: vec![None],
+        vehicles: vec![vehicle(args)?],
         limits: vec![args.limits()],
         contenders,
         seeds: (0..args.n_seeds()).collect(),
     })
+}
+
+/// The vehicle that the flags name; a misspelled one is found now.
+fn vehicle(args: &BenchArgs) -> Result<Option<VehicleChoice>> {
+    let Some(name) = &args.vehicle else {
+        return Ok(None);
+    };
+    scene::vehicle(name)?;
+    Ok(Some(VehicleChoice {
+        name: name.clone(),
+        source: name.clone(),
+    }))
 }
 
 /// All scenarios that the words name.

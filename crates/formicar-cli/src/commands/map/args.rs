@@ -36,7 +36,8 @@ pub(super) enum MapCommand {
 /// A map and its cell size.
 #[derive(Args, Debug)]
 pub(super) struct MapSource {
-    /// Map file (ROS .yaml, MovingAI .map, .csv or .txt matrix, image) or name of a built-in map.
+    /// Map file (ROS .yaml, MovingAI .map, .csv or .txt matrix, image), name of a built-in map, or a
+    /// bag of ROS 2: F.mcap[:TOPIC][@TIME].
     #[arg(value_name = "F|NAME", value_hint = ValueHint::FilePath)]
     pub(super) map: String,
 

@@ -4,7 +4,7 @@
 use crate::commands::locate;
 use crate::failure::{Ending, Failure};
 use crate::files;
-use crate::lidar::{Interrupt, MapToSearch, read_log};
+use crate::lidar::{Interrupt, LogArgs, MapToSearch, read_log};
 use crate::output::print_json;
 use anyhow::{Context, Result};
 use clap::{Args, ValueHint};
@@ -31,7 +31,7 @@ pub(crate) struct EvaluateArgs {
     #[arg(value_name = "MAP", value_hint = ValueHint::FilePath)]
     map: PathBuf,
 
-    /// The lidar log.
+    /// The lidar log: a bag of ROS 2 (.mcap, or its folder), or CARMEN, plain or .gz.
     #[arg(value_name = "LOG", value_hint = ValueHint::FilePath)]
     log: PathBuf,
 
@@ -47,6 +47,9 @@ pub(crate) struct EvaluateArgs {
     /// Pose of the laser at the first scan; it is searched otherwise.
     #[arg(long, value_name = "X,Y,H", value_parser = crate::values::pose, allow_hyphen_values = true)]
     start: Option<Pose2>,
+
+    #[command(flatten)]
+    how: LogArgs,
 
     /// Print one JSON object.
     #[arg(long)]
@@ -116,7 +119,7 @@ fn evaluate(args: &EvaluateArgs) -> Result<Evaluation> {
         parse_relations(&text).with_context(|| path.display().to_string())
     });
     let relations = relations.transpose()?;
-    let log = read_log(&args.log)?;
+    let log = read_log(&args.log, &args.how)?;
     let map = MapToSearch::read(&args.map)?;
     let found = locate::located(&map, &log, args.start, &Interrupt::watch())?;
     let poses: Vec<Pose2> = found.iter().map(|located| located.pose).collect();

@@ -118,6 +118,12 @@ pub(crate) struct PlanArgs {
     #[arg(long, value_name = "F.svg|F.png|F.gif", value_hint = ValueHint::FilePath, conflicts_with = "stdin")]
     pub(crate) ants: Option<PathBuf>,
 
+    /// Record map, path, gears, and the vehicle on its drive as a bag of ROS 2, for `ros2 bag play`,
+    /// Foxglove or Lichtblick.
+    #[cfg(feature = "record")]
+    #[arg(long, value_name = "F.mcap", value_hint = ValueHint::FilePath, conflicts_with = "stdin")]
+    pub(crate) record: Option<PathBuf>,
+
     /// Print the answer as one JSON object.
     #[arg(long)]
     pub(crate) json: bool,

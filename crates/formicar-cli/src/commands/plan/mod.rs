@@ -2,6 +2,8 @@
 
 mod args;
 mod motion;
+#[cfg(feature = "record")]
+mod record;
 mod soft_costs;
 mod stdin;
 
@@ -37,6 +39,8 @@ struct Targets {
     out: Vec<Target<OutKind>>,
     picture: Option<Target<PictureKind>>,
     ants: Option<Target<AntsKind>>,
+    #[cfg(feature = "record")]
+    record: Option<record::RecordTarget>,
 }
 
 /// Carries out `plan`.
@@ -142,6 +146,8 @@ impl Targets {
             out: out.collect::<Result<_>>()?,
             picture: Target::of(args.picture.as_deref(), &picture::KINDS)?,
             ants: Target::of(args.ants.as_deref(), &ants::KINDS)?,
+            #[cfg(feature = "record")]
+            record: record::target(args.record.as_deref())?,
         })
     }
 }
@@ -243,6 +249,13 @@ fn write_files(
             _ => image,
         };
         target.write(&picture::encode(&image, target.kind)?)?;
+    }
+    #[cfg(feature = "record")]
+    if let Some(target) = &targets.record {
+        match outcome {
+            Outcome::Found(plan) => record::write(&session.scene, &plan.path, target)?,
+            Outcome::NotFound(_) => not_written("no path", target),
+        }
     }
     if let (Some(target), Some(kept)) = (&targets.ants, &session.ants) {
         if kept.frames().is_empty() {

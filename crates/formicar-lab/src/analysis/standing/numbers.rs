@@ -1,6 +1,7 @@
 //! Runs by scenario.
 
-use crate::analysis::statistics::quantile;
+pub(super) use crate::analysis::statistics::median;
+use crate::analysis::statistics::quantile_or_forever;
 use crate::run::RunRecord;
 use std::collections::BTreeMap;
 
@@ -79,14 +80,9 @@ pub(super) fn first_s(run: &RunRecord) -> f64 {
     first_s.unwrap_or(f64::INFINITY)
 }
 
-/// The median.
-pub(super) fn median(values: &[f64]) -> Option<f64> {
-    finite_or_forever(values, 0.5)
-}
-
 /// The value that nine tenths do not exceed.
 pub(super) fn p90(values: &[f64]) -> Option<f64> {
-    finite_or_forever(values, 0.9)
+    quantile_or_forever(values, 0.9)
 }
 
 /// The largest value.
@@ -97,21 +93,6 @@ pub(super) fn largest(values: &[f64]) -> Option<f64> {
 /// The smallest value.
 pub(super) fn smallest(values: &[f64]) -> Option<f64> {
     values.iter().copied().min_by(f64::total_cmp)
-}
-
-/// A quantile of values of which some may be infinite: forever where it lies between values of
-/// which one is.
-fn finite_or_forever(values: &[f64], p: f64) -> Option<f64> {
-    let between = quantile(values, p)?;
-    if !between.is_nan() {
-        return Some(between);
-    }
-    // Infinity less itself, or none of infinity: the value lies on its lower neighbor.
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted
-        .get((p * (sorted.len() - 1) as f64) as usize)
-        .copied()
 }
 
 #[cfg(test)]

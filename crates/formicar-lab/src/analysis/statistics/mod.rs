@@ -37,6 +37,26 @@ pub fn quantile(values: &[f64], p: f64) -> Option<f64> {
     Some(sorted[below] + share * (sorted[above] - sorted[below]))
 }
 
+/// A quantile of values of which some may be infinite: where it lies between values of which one
+/// is, it is infinite too.
+pub(crate) fn quantile_or_forever(values: &[f64], p: f64) -> Option<f64> {
+    let between = quantile(values, p)?;
+    if !between.is_nan() {
+        return Some(between);
+    }
+    // Infinity less itself, or none of infinity: the value lies on its lower neighbor.
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted
+        .get((p * (sorted.len() - 1) as f64) as usize)
+        .copied()
+}
+
+/// The median of values of which some may be infinite.
+pub(crate) fn median(values: &[f64]) -> Option<f64> {
+    quantile_or_forever(values, 0.5)
+}
+
 /// Median and quartiles: 0.25, 0.5, 0.75.
 pub fn quartiles(values: &[f64]) -> Option<[f64; 3]> {
     let [a, b, c] = [0.25, 0.5, 0.75].map(|p| quantile(values, p));

@@ -219,6 +219,7 @@ mod tests {
                 at_s,
                 steps: 1,
                 length_m,
+                ..Improvement::default()
             };
             run.history.improvements = vec![improvement(0.1, 20.0), improvement(0.4, 10.0)];
         }

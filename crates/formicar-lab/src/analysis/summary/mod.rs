@@ -1,9 +1,12 @@
 //! Summaries of runs: totals per source of scenarios, and a report of tables, charts and parameter
 //! sheets; logs of OMPL.
 
+mod anytime;
 mod by_source;
 mod charts;
 mod ompl;
+mod places;
+mod ratios;
 mod report;
 mod sheets;
 

@@ -1,6 +1,6 @@
 //! Runs of stores as logs of OMPL, which Planner Arena opens.
 
-use super::report::places;
+use super::places::places;
 use crate::analysis::compare::planners;
 use crate::report::{OmplLog, OmplPlanner, OmplRun, Property, PropertyKind};
 use crate::run::{Run, RunRecord, number};
@@ -99,6 +99,7 @@ mod tests {
                 at_s: 0.25,
                 steps: 7,
                 length_m,
+                ..Improvement::default()
             }];
             run
         };

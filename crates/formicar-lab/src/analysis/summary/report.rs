@@ -2,12 +2,13 @@
 //!
 //! A section is a function here; [`report()`] lists them.
 
-use super::charts;
+use super::places::places;
+use super::{anytime, charts, ratios};
 use crate::analysis::compare::{
     Duel, METHOD, METRICS, Metric, SUCCESS, Scope, describe_not_run, not_run, paired, planners,
     runs_of,
 };
-use crate::analysis::statistics::{distinct, quartiles};
+use crate::analysis::statistics::quartiles;
 use crate::report::{Field, Report, Section, Table};
 use crate::run::Run;
 use anyhow::Result;
@@ -18,7 +19,10 @@ use formicar::numeric::counted;
 /// # Errors
 /// Scenarios of one name whose maps or vehicles are not the same.
 pub fn report(name: &str, runs: &[Run]) -> Result<Report> {
-    let mut sections = vec![of_planners(runs), charts::spreads(runs)];
+    let mut sections = vec![of_planners(runs)];
+    sections.extend(ratios::ratios(runs));
+    sections.extend(anytime::anytime(runs));
+    sections.push(charts::spreads(runs));
     sections.extend(charts::convergence(runs));
     sections.extend(beside_the_first(runs)?);
     sections.push(of_scenarios(runs));
@@ -128,11 +132,6 @@ fn of_scenarios(runs: &[Run]) -> Section {
         }
     }
     Section::of_table("Scenarios", table)
-}
-
-/// All places in the order in which they come.
-pub(super) fn places(runs: &[Run]) -> Vec<[&str; 3]> {
-    distinct(runs.iter().map(Run::place))
 }
 
 /// All metrics but success.

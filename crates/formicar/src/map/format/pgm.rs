@@ -24,7 +24,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<GreyImage, FormatError> {
     } else {
         raw_values(&scanner, n_cells, max_value)?
     };
-    if let Some(i) = values.iter().position(|&v| v > max_value) {
+    // The largest value is found many at a time, the first that is too large is not.
+    let is_too_large = values.iter().max() > Some(&max_value);
+    let too_large = || values.iter().position(|&v| v > max_value);
+    if let Some(i) = is_too_large.then(too_large).flatten() {
         let expected = format!("at most {max_value}, the file's own maximum");
         return Err(
             FormatProblem::bad_value("a grey value", values[i], expected).at(Place::Value(i + 1)),

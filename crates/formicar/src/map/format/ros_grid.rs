@@ -35,15 +35,21 @@ impl RosMapDescription {
             .into());
         }
         let frame = GridFrame::new(image.n_cols, image.n_rows, self.resolution_m, self.origin)?;
-        let mut table: Vec<i8> = (0..=image.max_value)
-            .map(|grey| self.cell_value(grey, image.max_value))
-            .collect();
+        // A value for whatever 16 bits hold: no look is out of range.
+        let table = vec![UNKNOWN; 1 << u16::BITS];
+        let mut table: Box<[i8; 1 << u16::BITS]> = table.try_into().expect("as many");
+        for grey in 0..=image.max_value {
+            table[usize::from(grey)] = self.cell_value(grey, image.max_value);
+        }
         if let Some(grey) = unknown_grey {
             table[usize::from(image.scaled(grey))] = UNKNOWN;
         }
-        let mut values = Vec::with_capacity(frame.n_cells());
-        for row in image.values.chunks_exact(image.n_cols).rev() {
-            values.extend(row.iter().map(|&grey| table[usize::from(grey)]));
+        let mut values = vec![UNKNOWN; frame.n_cells()];
+        let upwards = image.values.chunks_exact(image.n_cols).rev();
+        for (values, greys) in values.chunks_exact_mut(image.n_cols).zip(upwards) {
+            for (value, &grey) in values.iter_mut().zip(greys) {
+                *value = table[usize::from(grey)];
+            }
         }
         if let (Some(transparent), false) = (&image.transparent, self.mode == RosMapMode::Raw) {
             let upwards = transparent.chunks_exact(image.n_cols).rev().flatten();

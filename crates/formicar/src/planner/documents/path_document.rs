@@ -1,6 +1,6 @@
 //! A path in files: sampled poses for followers, exact segments for the judge.
 
-use crate::collision::{Body, ObstacleMap};
+use crate::collision::{Body, ClearanceAlong, ObstacleMap};
 use crate::geometry::{Pose2, wrap_angle};
 use crate::motion::fastest;
 use crate::path::{
@@ -100,6 +100,7 @@ impl PathDocument {
     ) -> Self {
         let spacing = spacing.into();
         let body = Body::new(vehicle);
+        let mut clearance = ClearanceAlong::new(obstacles, &body);
         let timed = timed(path, vehicle, spacing);
         let mut after_cusps = after_cusps(path, &spacing).peekable();
         let mut poses = Vec::new();
@@ -113,7 +114,7 @@ impl PathDocument {
                 direction: at.direction,
                 curvature: at.curvature_per_m,
                 steer: vehicle.steer_rad(at.curvature_per_m),
-                clearance: obstacles.clearance_m(&body, obstacles.frame().to_grid(at.pose)),
+                clearance: clearance.at_m(at.pose),
                 speed: timed.map(|timed| timed.speed_mps),
                 time: timed.map(|timed| timed.time_s),
                 acceleration: None,

@@ -3,6 +3,7 @@
 use super::{DriveProblem, FieldGrid, Inflation, one_way};
 use crate::geometry::{Point2, Pose2, dubins, reeds_shepp};
 use crate::map::Cell;
+use crate::numeric::integer_below;
 use crate::progress::{Limits, Status};
 use crate::search::{GuideField, STRAIGHT_COST, SearchError};
 use crate::vehicle::Gears;
@@ -185,16 +186,17 @@ impl<'a> Guide<'a> {
             position.y / self.resolution_m - 0.5,
         );
         let moves = self.field.moves();
-        let at = |dx: f64, dy: f64| {
-            let (col, row) = (x.floor() + dx, y.floor() + dy);
-            let inside = (0.0..moves.n_cols() as f64).contains(&col)
-                && (0.0..moves.n_rows() as f64).contains(&row);
+        let (col, row) = (integer_below(x), integer_below(y));
+        let at = |dx: i64, dy: i64| {
+            let (col, row) = (col + dx, row + dy);
+            let inside = (0..moves.n_cols() as i64).contains(&col)
+                && (0..moves.n_rows() as i64).contains(&row);
             let cell = inside.then(|| Cell::new(col as u32, row as u32));
             f64::from(cell.and_then(|cell| self.field.cost(cell)).unwrap_or(here))
         };
-        let (u, v) = (x - x.floor(), y - y.floor());
-        let below = (1.0 - u) * at(0.0, 0.0) + u * at(1.0, 0.0);
-        let above = (1.0 - u) * at(0.0, 1.0) + u * at(1.0, 1.0);
+        let (u, v) = (x - col as f64, y - row as f64);
+        let below = (1.0 - u) * at(0, 0) + u * at(1, 0);
+        let above = (1.0 - u) * at(0, 1) + u * at(1, 1);
         self.length_m((1.0 - v) * below + v * above)
     }
 

@@ -114,19 +114,33 @@ impl DriveProblem<'_> {
     /// The cost of a curve driven after a state, in pieces as long as motion primitives; none
     /// where one of their ends certainly hits something.
     fn price(&self, state: &State, curve: &Curve) -> Option<f64> {
+        // A look at a cell costs less than a price, and most curves hit something.
+        let mut pieces = self.pieces(state, curve);
+        if pieces.any(|(_, mut ends)| ends.any(|(position, along)| self.hits(position, along))) {
+            return None;
+        }
         let mut before = state.arc;
         let mut total = 0.0;
-        for (start, arc) in curve.placed_arcs(state.pose) {
-            let n_pieces = (arc.length_m() / self.piece_m()).ceil().max(1.0) as usize;
-            let piece = Arc::new(arc.curvature_per_m, arc.signed_length_m / n_pieces as f64);
-            for (position, along) in arc.waypoints(start, n_pieces) {
-                if self.hits(position, along) {
-                    return None;
-                }
+        for (piece, ends) in self.pieces(state, curve) {
+            for (position, along) in ends {
                 total += self.cost(before, piece, self.dearness(position, along)?);
-                before = arc;
+                before = piece;
             }
         }
         Some(total)
+    }
+
+    /// The arcs of a curve driven after a state, each as a piece that is driven again and again
+    /// and the places where that ends.
+    fn pieces(
+        &self,
+        state: &State,
+        curve: &Curve,
+    ) -> impl Iterator<Item = (Arc, impl Iterator<Item = (Point2, Point2)>)> {
+        curve.placed_arcs(state.pose).map(|(start, arc)| {
+            let n_pieces = (arc.length_m() / self.piece_m()).ceil().max(1.0) as usize;
+            let piece = Arc::new(arc.curvature_per_m, arc.signed_length_m / n_pieces as f64);
+            (piece, arc.waypoints(start, n_pieces))
+        })
     }
 }

@@ -1,6 +1,7 @@
 //! Flags of `map build`.
 #![allow(clippy::doc_markdown, reason = "clap prints these words as they stand")]
 
+use crate::lidar::LogArgs;
 use crate::values;
 use clap::{Args, ValueEnum, ValueHint};
 use formicar::Pose2;
@@ -9,7 +10,8 @@ use std::path::PathBuf;
 /// Flags of `map build`.
 #[derive(Args, Debug)]
 #[command(after_help = "\
-Logs are read in the format of CARMEN (FLASER, ROBOTLASER1, RAWLASER1, ODOM), also packed as .gz. \
+Logs are bags of ROS 2 in MCAP (LaserScan, Odometry, tf), or files in the format of CARMEN (FLASER, \
+ROBOTLASER1, RAWLASER1, ODOM), also packed as .gz. \
 The poses are those of the laser; the first one is the origin of the map. Ctrl-C ends the search \
 in order: with --session, the same command goes on where it ended. The session is also the most \
 exact map for `locate`.")]
@@ -32,9 +34,8 @@ pub(crate) struct BuildArgs {
     #[arg(long, value_name = "F", value_hint = ValueHint::FilePath)]
     pub(super) session: Option<PathBuf>,
 
-    /// Use the scans alone.
-    #[arg(long)]
-    pub(super) no_odometry: bool,
+    #[command(flatten)]
+    pub(super) how: LogArgs,
 
     /// Side of a cell, meters: 0.05 by default.
     #[arg(long, value_name = "M", value_parser = values::positive)]

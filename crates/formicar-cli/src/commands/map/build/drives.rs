@@ -2,10 +2,10 @@
 
 use super::BuildArgs;
 use crate::lidar::{Interrupt, ScanBar};
-use anyhow::{Result, anyhow};
+use anyhow::Result;
 use formicar::Pose2;
-use formicar_mapping::sdf::Sweep;
-use formicar_mapping::{BuiltMap, Go, LocalizationMap, Localizer, Log, Mapper};
+use formicar_mapping::localize::first_pose;
+use formicar_mapping::{BuiltMap, Go, Log, Mapper};
 
 /// The logs of a command, and the scans of theirs that the map was built from.
 pub(super) struct Drives {
@@ -34,9 +34,6 @@ impl Drive {
 fn keeps(hold_out: Option<usize>, scan: usize) -> bool {
     hold_out.is_none_or(|n| scan % n != n - 1)
 }
-
-/// Scans that a search in the whole map joins.
-const N_START_SCANS: usize = 4;
 
 impl Drives {
     /// Adds the logs to a mapper.
@@ -127,33 +124,8 @@ fn begin(mapper: &mut Mapper, log: &Log, start: Option<Pose2>) -> Result<()> {
     let built = mapper.finish(|_| Go::On)?;
     let start = match start {
         Some(start) => start,
-        None => found(mapper, &built, log).ok_or_else(|| {
-            anyhow!(
-                "the first {N_START_SCANS} scans of the log are found nowhere in the map; hint: \
-                 --start X,Y,H says where the drive begins, or the log belongs to another map"
-            )
-        })?,
+        None => first_pose(&built.field, log, mapper.config(), mapper.policy())?,
     };
     mapper.start_drive(start, &built);
     Ok(())
-}
-
-/// The pose of a log's first scan in a map.
-fn found(mapper: &Mapper, built: &BuiltMap, log: &Log) -> Option<Pose2> {
-    let map = LocalizationMap::new(&built.field);
-    let localizer = Localizer::new(map, mapper.config(), None).ok()?;
-    let mut reckoned = Pose2::default();
-    let mut scans = Vec::new();
-    for (i, scan) in log.scans.iter().take(N_START_SCANS).enumerate() {
-        reckoned = reckoned.compose(log.motion(i).unwrap_or_default());
-        scans.push((Sweep::new(scan, mapper.policy()).0, reckoned));
-    }
-    if log.odometry.is_none() {
-        // Without motion between them, scans cannot be joined.
-        scans.truncate(1);
-    }
-    let (newest, _) = localizer.global(&scans)?;
-    // The search gives the pose of the newest scan.
-    let back = scans.last()?.1.relative(scans.first()?.1);
-    Some(newest.compose(back).wrapped())
 }

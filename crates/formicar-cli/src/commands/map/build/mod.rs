@@ -63,14 +63,7 @@ fn built(args: &BuildArgs, outputs: &Outputs) -> Result<Option<(MapReport, Built
         times_s.push((name.to_owned(), begin.elapsed().as_secs_f64()));
         begin = Instant::now();
     };
-    let logs = args.logs.iter().map(|path| {
-        let log = read_log(path)?;
-        Ok(if args.no_odometry {
-            log.without_odometry()
-        } else {
-            log
-        })
-    });
+    let logs = args.logs.iter().map(|path| read_log(path, &args.how));
     let logs = logs.collect::<Result<Vec<_>>>()?;
     lap("reading");
     let interrupt = Interrupt::watch();

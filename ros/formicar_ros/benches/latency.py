@@ -1,0 +1,132 @@
+"""Latencies of the planner server, beside the library alone.
+
+    python benches/latency.py [N]
+
+A server in a process of its own plans on the built-in map warehouse between
+random free poses. Of each of N goals, milliseconds from sending to acceptance, to the result, and,
+of goals that are canceled 5 ms after acceptance, from the cancel to the result.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import formicar
+import numpy as np
+from nav2_msgs.action import ComputePathToPose
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+from tests.peer import CANCELED, SUCCEEDED, Peer, pose, request  # noqa: E402
+
+MAP, VEHICLE = "warehouse", "warehouse_amr"
+Pose = tuple[float, float, float]
+
+
+def pairs(grid: formicar.OccupancyGrid) -> Iterator[tuple[Pose, Pose]]:
+    """Yield free poses, two by two."""
+    rng = np.random.default_rng(1)
+    width, height = grid.extent
+
+    def free_pose() -> Pose:
+        while True:
+            x, y = rng.uniform(0, width) + grid.origin[0], rng.uniform(0, height) + grid.origin[1]
+            pose = (float(x), float(y), float(rng.uniform(-np.pi, np.pi)))
+            if formicar.check(np.array([pose]), grid, VEHICLE):
+                return pose
+
+    while True:
+        yield free_pose(), free_pose()
+
+
+def main() -> None:
+    """Measure and print."""
+    n = int(sys.argv[1]) if len(sys.argv) > 1 else 300
+    grid = formicar.OccupancyGrid.builtin(MAP)
+    planner = formicar.Planner(grid, VEHICLE)
+    domain = 1 + os.getpid() % 100
+    command = [sys.executable, "-m", "formicar_ros.planner_server", "--ros-args"]
+    given = ["-p", "autostart:=true", "-p", f"vehicle.preset:={VEHICLE}"]
+    server = subprocess.Popen([*command, *given], env={**os.environ, "ROS_DOMAIN_ID": str(domain)})
+    peer = Peer(domain, is_threaded=False)
+    try:
+        peer.send_map(grid.data, grid.resolution, origin=grid.origin)
+        measure(peer, planner, n)
+    finally:
+        server.terminate()
+        server.wait(20)
+        peer.close()
+
+
+def measure(peer: Peer, planner: formicar.Planner, n: int) -> None:
+    """Ask for paths, cancel goals, and print a table."""
+    names = ("library", "acceptance", "result", "added", "acceptance before a cancel", "cancel")
+    times: dict[str, list[float]] = {name: [] for name in names}
+    between = pairs(planner.map)
+    assert peer.to_pose.wait_for_server(20.0)
+    for k in range(2 * n + 10):
+        start, goal = next(between)
+        taken = canceled(peer, start, goal) if k % 2 else planned(peer, planner, start, goal)
+        if k >= 10:  # The first ones find the other side, and wait for the map.
+            for name, value in taken.items():
+                times[name].append(value)
+    print("| | n | median ms | 99 % ms |\n|---|---|---|---|")
+    for name, values in times.items():
+        low, high = np.percentile(np.array(values) * 1e3, [50, 99])
+        print(f"| {name} | {len(values)} | {low:.1f} | {high:.1f} |")
+
+
+def planned(peer: Peer, planner: formicar.Planner, start: Pose, goal: Pose) -> dict[str, float]:
+    """Return the times of a goal, and that of the library alone."""
+    handle, acceptance_s, sent = accepted(peer, start, goal)
+    answer = waited(peer, handle.get_result_async())
+    result_s = time.perf_counter() - sent
+    begun = time.perf_counter()
+    plan = planner.plan(start, goal, deadline_s=5.0)
+    library_s = time.perf_counter() - begun
+    assert (answer.status == SUCCEEDED) == bool(plan), answer.result.error_msg
+    return {
+        "library": library_s,
+        "acceptance": acceptance_s,
+        "result": result_s,
+        "added": result_s - library_s,
+    }
+
+
+def canceled(peer: Peer, start: Pose, goal: Pose) -> dict[str, float]:
+    """Return how long a cancel takes; nothing if the path was quicker."""
+    handle, acceptance_s, _ = accepted(peer, start, goal)
+    ending = handle.get_result_async()
+    time.sleep(0.005)
+    begun = time.perf_counter()
+    handle.cancel_goal_async()
+    answer = waited(peer, ending)
+    taken = {"acceptance before a cancel": acceptance_s}
+    if answer.status == CANCELED:
+        taken["cancel"] = time.perf_counter() - begun
+    return taken
+
+
+def accepted(peer: Peer, start: Pose, goal: Pose) -> tuple[Any, float, float]:
+    """Send a goal, and return its handle, the time to its acceptance, and when it was sent."""
+    asked = request(ComputePathToPose.Goal(goal=pose(*goal)), start=start)
+    sent = time.perf_counter()
+    handle = waited(peer, peer.to_pose.send_goal_async(asked))
+    assert handle.accepted
+    return handle, time.perf_counter() - sent, sent
+
+
+def waited(peer: Peer, future: Any) -> Any:
+    """Spin until a future is done, and return its result."""
+    peer.executor.spin_until_future_complete(future, 30.0)
+    return future.result()
+
+
+if __name__ == "__main__":
+    main()
