@@ -97,6 +97,13 @@ fn speed_step_mps(top_mps: f64, limits: &SpeedLimits, time_step_s: f64) -> f64 {
     top_mps / n_speeds
 }
 
+/// A beginning that needs a shorter time step than this share of the one given is not fitted: so
+/// short a stretch is driven without a choice.
+const FINEST: f64 = 1.0 / 64.0;
+/// The largest speed at the end of a time step over the mean speed within it, with a speed that is
+/// a square of time.
+const MOST_OVER_MEAN: f64 = 3.0;
+
 /// The time step with which a beginning in motion is on the lattice, at most the one given, and the
 /// beginning with the units that it fits.
 pub(super) fn fitted(
@@ -126,7 +133,8 @@ pub(super) fn fitted(
         let jerk = limits.max_jerk_mps3.unwrap_or(f64::INFINITY);
         quantum <= 0.5 * jerk * fitting_s * fitting_s
     };
-    let mut fits = fits.filter(is_smooth);
+    let is_long = |&(.., fitting_s): &(f64, usize, f64)| fitting_s >= FINEST * time_step_s;
+    let mut fits = fits.filter(is_smooth).filter(is_long);
     let Some((_, n_units, fitting_s)) = fits.next() else {
         return (time_step_s, begin);
     };
@@ -219,7 +227,11 @@ impl Stretch {
         });
         let unit_m = length_m / n_units as f64;
         let speed_step_mps = grain.per_unit * unit_m / time_step_s;
-        let n_speeds = (top_mps / speed_step_mps * (1.0 + SAME)).floor().max(1.0) as i64;
+        // In a time step the speed rises to no more than three times the mean: on a short stretch
+        // the top speed is out of reach.
+        let reachable = MOST_OVER_MEAN * n_units as f64 / grain.per_unit + 1.0;
+        let n_speeds = (top_mps / speed_step_mps * (1.0 + SAME)).min(reachable);
+        let n_speeds = n_speeds.floor().max(1.0) as i64;
         let (modes, moves) = match limits.max_jerk_mps3 {
             None => plain(n_speeds, limits, time_step_s / speed_step_mps),
             Some(jerk) => {

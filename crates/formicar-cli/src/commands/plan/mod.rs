@@ -206,6 +206,34 @@ fn via_record(args: &PlanArgs, via: &ViaPoint) -> ViaRecord {
     })
 }
 
+/// The picture of a plan, with its drive in time if there is one.
+fn drawn(
+    session: &Session,
+    answered: &Answered,
+    (outcome, driven): (&Outcome, Option<&(Motion, Driven)>),
+    kind: PictureKind,
+) -> Result<Vec<u8>> {
+    let scene = &session.scene;
+    let image = picture::of(
+        scene,
+        &session.obstacles,
+        &answered.answer,
+        outcome,
+        Layout::Page,
+    );
+    let drive = driven.and_then(|(motion, driven)| Some((motion, driven.plan.as_ref()?)));
+    let image = match drive {
+        Some((motion, plan)) => image.with_motion(
+            &plan.motion,
+            motion.predictions(),
+            &scene.vehicle.vehicle,
+            motion.max_speed_mps(),
+        ),
+        None => image,
+    };
+    picture::encode(&image, kind)
+}
+
 fn write_files(
     session: &Session,
     answered: &Answered,
@@ -227,28 +255,7 @@ fn write_files(
         return Ok(());
     };
     if let Some(target) = &targets.picture {
-        let image = picture::of(
-            &session.scene,
-            &session.obstacles,
-            &answered.answer,
-            outcome,
-            Layout::Page,
-        );
-        let image = match driven {
-            Some((
-                motion,
-                Driven {
-                    plan: Some(plan), ..
-                },
-            )) => image.with_motion(
-                &plan.motion,
-                motion.predictions(),
-                &session.scene.vehicle.vehicle,
-                motion.max_speed_mps(),
-            ),
-            _ => image,
-        };
-        target.write(&picture::encode(&image, target.kind)?)?;
+        target.write(&drawn(session, answered, (outcome, driven), target.kind)?)?;
     }
     #[cfg(feature = "record")]
     if let Some(target) = &targets.record {
