@@ -4,8 +4,8 @@
 
 A server in a process of its own plans on the built-in map warehouse between random free poses. Of N
 goals, milliseconds from sending to acceptance and to the result; of N goals that are canceled 5 ms
-after acceptance, from the cancel to the result. Beside them, N goals to an action server of rclpy
-that does nothing, which is the least that rclpy takes here.
+after acceptance, from the cancel to the result. In turn with them, N goals to an action server of
+rclpy that does nothing, which is the least that rclpy takes here.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ import formicar
 import numpy as np
 import rclpy
 from nav2_msgs.action import ComputePathToPose
-from rclpy.action import ActionServer
+from rclpy.action import ActionClient, ActionServer
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
@@ -58,28 +58,25 @@ def main() -> None:
     grid = formicar.OccupancyGrid.builtin(MAP)
     options = ["autostart:=true", f"vehicle.preset:={VEHICLE}", "expected_planner_frequency:=0.0"]
     given = [part for option in options for part in ("-p", option)]
-    print("| | n | median ms | 99 % ms |\n|---|---|---|---|")
-    with server_and_peer("-m", "formicar_ros.planner_server", "--ros-args", *given) as peer:
+    with servers_and_peer(given) as peer:
         peer.send_map(grid.data, grid.resolution, origin=grid.origin)
         show(measured(peer, formicar.Planner(grid, VEHICLE), n))
-    with server_and_peer(__file__, "--serve") as peer:
-        show({"acceptance by a bare server": bare(peer, n)})
 
 
 @contextmanager
-def server_and_peer(*arguments: str) -> Iterator[Peer]:
-    """Run a server in a process and a domain of its own."""
+def servers_and_peer(given: list[str]) -> Iterator[Peer]:
+    """Run the planner server and a bare one, in a domain of their own."""
     domain = 1 + os.getpid() % 100
     environment = {**os.environ, "ROS_DOMAIN_ID": str(domain)}
-    server = subprocess.Popen([sys.executable, *arguments], env=environment)
+    commands = (["-m", "formicar_ros.planner_server", "--ros-args", *given], [__file__, "--serve"])
+    servers = [subprocess.Popen([sys.executable, *c], env=environment) for c in commands]
     peer = Peer(domain, is_threaded=False)
     try:
-        assert peer.to_pose.wait_for_server(20.0)
-        time.sleep(1.0)
         yield peer
     finally:
-        server.kill()
-        server.wait(20)
+        for server in servers:
+            server.kill()
+            server.wait(20)
         peer.close()
 
 
@@ -92,23 +89,13 @@ def serve_nothing() -> None:
         handle.succeed()
         return ComputePathToPose.Result()
 
-    ActionServer(node, ComputePathToPose, "compute_path_to_pose", execute)
+    ActionServer(node, ComputePathToPose, "bare", execute)
     rclpy.spin(node)
 
 
-def bare(peer: Peer, n: int) -> list[float]:
-    """Return times to acceptance by a server that does nothing."""
-    found = []
-    for _ in range(n):
-        handle, acceptance_s, _ = accepted(peer, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-        waited(peer, handle.get_result_async())
-        found.append(acceptance_s)
-        time.sleep(0.02)
-    return found
-
-
 def show(times: dict[str, list[float]]) -> None:
-    """Print rows of a table."""
+    """Print a table."""
+    print("| | n | median ms | 99 % ms |\n|---|---|---|---|")
     for name, values in times.items():
         low, high = np.percentile(np.array(values) * 1e3, [50, 99])
         print(f"| {name} | {len(values)} | {low:.1f} | {high:.1f} |", flush=True)
@@ -116,12 +103,18 @@ def show(times: dict[str, list[float]]) -> None:
 
 def measured(peer: Peer, planner: formicar.Planner, n: int) -> dict[str, list[float]]:
     """Ask for paths, cancel goals, and return times in seconds."""
-    names = ("library", "acceptance", "result", "added", "acceptance before a cancel", "cancel")
+    names = ("library", "acceptance", "bare acceptance", "result", "added", "cancel")
     times: dict[str, list[float]] = {name: [] for name in names}
     between = pairs(planner.map)
+    bare = ActionClient(peer.node, ComputePathToPose, "bare")
+    assert peer.to_pose.wait_for_server(20.0) and bare.wait_for_server(20.0)
+    time.sleep(1.0)
     for k in range(2 * n + 10):
         start, goal = next(between)
         taken = canceled(peer, start, goal) if k % 2 else planned(peer, planner, start, goal)
+        if not k % 2:
+            handle, taken["bare acceptance"], _ = accepted(peer, bare, start, goal)
+            waited(peer, handle.get_result_async())
         if k >= 10:  # The first ones find the other side, and wait for the map.
             for name, value in taken.items():
                 times[name].append(value)
@@ -130,7 +123,7 @@ def measured(peer: Peer, planner: formicar.Planner, n: int) -> dict[str, list[fl
 
 def planned(peer: Peer, planner: formicar.Planner, start: Pose, goal: Pose) -> dict[str, float]:
     """Return the times of a goal, and that of the library alone."""
-    handle, acceptance_s, sent = accepted(peer, start, goal)
+    handle, acceptance_s, sent = accepted(peer, peer.to_pose, start, goal)
     answer = waited(peer, handle.get_result_async())
     result_s = time.perf_counter() - sent
     begun = time.perf_counter()
@@ -147,23 +140,21 @@ def planned(peer: Peer, planner: formicar.Planner, start: Pose, goal: Pose) -> d
 
 def canceled(peer: Peer, start: Pose, goal: Pose) -> dict[str, float]:
     """Return how long a cancel takes; nothing if the path was quicker."""
-    handle, acceptance_s, _ = accepted(peer, start, goal)
+    handle, _, _ = accepted(peer, peer.to_pose, start, goal)
     ending = handle.get_result_async()
     time.sleep(0.005)
     begun = time.perf_counter()
     handle.cancel_goal_async()
     answer = waited(peer, ending)
-    taken = {"acceptance before a cancel": acceptance_s}
-    if answer.status == CANCELED:
-        taken["cancel"] = time.perf_counter() - begun
-    return taken
+    taken_s = time.perf_counter() - begun
+    return {"cancel": taken_s} if answer.status == CANCELED else {}
 
 
-def accepted(peer: Peer, start: Pose, goal: Pose) -> tuple[Any, float, float]:
+def accepted(peer: Peer, client: Any, start: Pose, goal: Pose) -> tuple[Any, float, float]:
     """Send a goal, and return its handle, the time to its acceptance, and when it was sent."""
     asked = request(ComputePathToPose.Goal(goal=pose(*goal)), start=start)
     sent = time.perf_counter()
-    handle = waited(peer, peer.to_pose.send_goal_async(asked))
+    handle = waited(peer, client.send_goal_async(asked))
     assert handle.accepted
     return handle, time.perf_counter() - sent, sent
 
