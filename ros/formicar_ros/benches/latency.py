@@ -2,9 +2,10 @@
 
     python benches/latency.py [N]
 
-A server in a process of its own plans on the built-in map warehouse between
-random free poses. Of each of N goals, milliseconds from sending to acceptance, to the result, and,
-of goals that are canceled 5 ms after acceptance, from the cancel to the result.
+A server in a process of its own plans on the built-in map warehouse between random free poses. Of N
+goals, milliseconds from sending to acceptance and to the result; of N goals that are canceled 5 ms
+after acceptance, from the cancel to the result. In turn with them, N goals to an action server of
+rclpy that does nothing, which is the least that rclpy takes here.
 """
 
 from __future__ import annotations
@@ -14,12 +15,15 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import formicar
 import numpy as np
+import rclpy
 from nav2_msgs.action import ComputePathToPose
+from rclpy.action import ActionClient, ActionServer
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
@@ -47,44 +51,79 @@ def pairs(grid: formicar.OccupancyGrid) -> Iterator[tuple[Pose, Pose]]:
 
 def main() -> None:
     """Measure and print."""
+    if sys.argv[1:] == ["--serve"]:
+        serve_nothing()
+        return
     n = int(sys.argv[1]) if len(sys.argv) > 1 else 300
     grid = formicar.OccupancyGrid.builtin(MAP)
-    planner = formicar.Planner(grid, VEHICLE)
+    options = ["autostart:=true", f"vehicle.preset:={VEHICLE}", "expected_planner_frequency:=0.0"]
+    given = [part for option in options for part in ("-p", option)]
+    with servers_and_peer(given) as peer:
+        peer.send_map(grid.data, grid.resolution, origin=grid.origin)
+        show(measured(peer, formicar.Planner(grid, VEHICLE), n))
+
+
+@contextmanager
+def servers_and_peer(given: list[str]) -> Iterator[Peer]:
+    """Run the planner server and a bare one, in a domain of their own."""
     domain = 1 + os.getpid() % 100
-    command = [sys.executable, "-m", "formicar_ros.planner_server", "--ros-args"]
-    given = ["-p", "autostart:=true", "-p", f"vehicle.preset:={VEHICLE}"]
-    server = subprocess.Popen([*command, *given], env={**os.environ, "ROS_DOMAIN_ID": str(domain)})
+    environment = {**os.environ, "ROS_DOMAIN_ID": str(domain)}
+    commands = (["-m", "formicar_ros.planner_server", "--ros-args", *given], [__file__, "--serve"])
+    servers = [subprocess.Popen([sys.executable, *c], env=environment) for c in commands]
     peer = Peer(domain, is_threaded=False)
     try:
-        peer.send_map(grid.data, grid.resolution, origin=grid.origin)
-        measure(peer, planner, n)
+        yield peer
     finally:
-        server.terminate()
-        server.wait(20)
+        for server in servers:
+            server.kill()
+            server.wait(20)
         peer.close()
 
 
-def measure(peer: Peer, planner: formicar.Planner, n: int) -> None:
-    """Ask for paths, cancel goals, and print a table."""
-    names = ("library", "acceptance", "result", "added", "acceptance before a cancel", "cancel")
-    times: dict[str, list[float]] = {name: [] for name in names}
-    between = pairs(planner.map)
-    assert peer.to_pose.wait_for_server(20.0)
-    for k in range(2 * n + 10):
-        start, goal = next(between)
-        taken = canceled(peer, start, goal) if k % 2 else planned(peer, planner, start, goal)
-        if k >= 10:  # The first ones find the other side, and wait for the map.
-            for name, value in taken.items():
-                times[name].append(value)
+def serve_nothing() -> None:
+    """Accept every goal, and do nothing for it."""
+    rclpy.init()
+    node = rclpy.create_node("bare")
+
+    def execute(handle: Any) -> Any:
+        handle.succeed()
+        return ComputePathToPose.Result()
+
+    ActionServer(node, ComputePathToPose, "bare", execute)
+    rclpy.spin(node)
+
+
+def show(times: dict[str, list[float]]) -> None:
+    """Print a table."""
     print("| | n | median ms | 99 % ms |\n|---|---|---|---|")
     for name, values in times.items():
         low, high = np.percentile(np.array(values) * 1e3, [50, 99])
-        print(f"| {name} | {len(values)} | {low:.1f} | {high:.1f} |")
+        print(f"| {name} | {len(values)} | {low:.1f} | {high:.1f} |", flush=True)
+
+
+def measured(peer: Peer, planner: formicar.Planner, n: int) -> dict[str, list[float]]:
+    """Ask for paths, cancel goals, and return times in seconds."""
+    names = ("library", "acceptance", "bare acceptance", "result", "added", "cancel")
+    times: dict[str, list[float]] = {name: [] for name in names}
+    between = pairs(planner.map)
+    bare = ActionClient(peer.node, ComputePathToPose, "bare")
+    assert peer.to_pose.wait_for_server(20.0) and bare.wait_for_server(20.0)
+    time.sleep(1.0)
+    for k in range(2 * n + 10):
+        start, goal = next(between)
+        taken = canceled(peer, start, goal) if k % 2 else planned(peer, planner, start, goal)
+        if not k % 2:
+            handle, taken["bare acceptance"], _ = accepted(peer, bare, start, goal)
+            waited(peer, handle.get_result_async())
+        if k >= 10:  # The first ones find the other side, and wait for the map.
+            for name, value in taken.items():
+                times[name].append(value)
+    return times
 
 
 def planned(peer: Peer, planner: formicar.Planner, start: Pose, goal: Pose) -> dict[str, float]:
     """Return the times of a goal, and that of the library alone."""
-    handle, acceptance_s, sent = accepted(peer, start, goal)
+    handle, acceptance_s, sent = accepted(peer, peer.to_pose, start, goal)
     answer = waited(peer, handle.get_result_async())
     result_s = time.perf_counter() - sent
     begun = time.perf_counter()
@@ -101,23 +140,21 @@ def planned(peer: Peer, planner: formicar.Planner, start: Pose, goal: Pose) -> d
 
 def canceled(peer: Peer, start: Pose, goal: Pose) -> dict[str, float]:
     """Return how long a cancel takes; nothing if the path was quicker."""
-    handle, acceptance_s, _ = accepted(peer, start, goal)
+    handle, _, _ = accepted(peer, peer.to_pose, start, goal)
     ending = handle.get_result_async()
     time.sleep(0.005)
     begun = time.perf_counter()
     handle.cancel_goal_async()
     answer = waited(peer, ending)
-    taken = {"acceptance before a cancel": acceptance_s}
-    if answer.status == CANCELED:
-        taken["cancel"] = time.perf_counter() - begun
-    return taken
+    taken_s = time.perf_counter() - begun
+    return {"cancel": taken_s} if answer.status == CANCELED else {}
 
 
-def accepted(peer: Peer, start: Pose, goal: Pose) -> tuple[Any, float, float]:
+def accepted(peer: Peer, client: Any, start: Pose, goal: Pose) -> tuple[Any, float, float]:
     """Send a goal, and return its handle, the time to its acceptance, and when it was sent."""
     asked = request(ComputePathToPose.Goal(goal=pose(*goal)), start=start)
     sent = time.perf_counter()
-    handle = waited(peer, peer.to_pose.send_goal_async(asked))
+    handle = waited(peer, client.send_goal_async(asked))
     assert handle.accepted
     return handle, time.perf_counter() - sent, sent
 
@@ -125,6 +162,7 @@ def accepted(peer: Peer, start: Pose, goal: Pose) -> tuple[Any, float, float]:
 def waited(peer: Peer, future: Any) -> Any:
     """Spin until a future is done, and return its result."""
     peer.executor.spin_until_future_complete(future, 30.0)
+    assert future.done(), "no answer within 30 s"
     return future.result()
 
 
