@@ -63,7 +63,7 @@ generate jazzy
 step "formatting, lints and types"
 ruff format --quiet --check .
 ruff check --quiet .
-with_interfaces_of jazzy mypy --no-error-summary formicar_ros tests
+with_interfaces_of jazzy mypy --no-error-summary formicar_ros tests benches
 
 if [ -n "${FORMICAR_SLOW:-}" ]; then
     for distribution in humble kilted lyrical; do

@@ -27,6 +27,7 @@ from rclpy.action import ActionClient, ActionServer
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
+from tests import domains  # noqa: E402
 from tests.peer import CANCELED, SUCCEEDED, Peer, pose, request  # noqa: E402
 
 MAP, VEHICLE = "warehouse", "warehouse_amr"
@@ -66,7 +67,7 @@ def main() -> None:
 @contextmanager
 def servers_and_peer(given: list[str]) -> Iterator[Peer]:
     """Run the planner server and a bare one, in a domain of their own."""
-    domain = 1 + os.getpid() % 100
+    domain = domains.claim()
     environment = {**os.environ, "ROS_DOMAIN_ID": str(domain)}
     commands = (["-m", "formicar_ros.planner_server", "--ros-args", *given], [__file__, "--serve"])
     servers = [subprocess.Popen([sys.executable, *c], env=environment) for c in commands]
@@ -78,6 +79,7 @@ def servers_and_peer(given: list[str]) -> Iterator[Peer]:
             server.kill()
             server.wait(20)
         peer.close()
+        domains.release(domain)
 
 
 def serve_nothing() -> None:

@@ -21,11 +21,8 @@ _REPORT_S = 5.0
 class Listening:
     """The subscriptions. A message that cannot be used is reported, and changes nothing."""
 
-    def __init__(
-        self, node: Any, store: MapStore, transforms: Transforms, on_map: Callable[[], None]
-    ) -> None:
+    def __init__(self, node: Any, store: MapStore, transforms: Transforms) -> None:
         self._node, self._store, self._transforms = node, store, transforms
-        self._on_map = on_map
         self._fixed = node.value("global_frame").lstrip("/")
         self._subscriptions: list[Any] = []
         self._reported: dict[str, float] = {}
@@ -80,16 +77,12 @@ class Listening:
             self._store.replace(frame_of(message))
         except (ValueError, TypeError) as error:
             self._report(f"map: {error}")
-            return
-        self._on_map()
 
     def _take_update(self, message: Any) -> None:
         try:
             self._store.patch(cells_of_update(message), message.x, message.y)
         except ValueError as error:
             self._report(f"map update: {error}")
-            return
-        self._on_map()
 
     def _take_tf(self, message: Any, *, is_static: bool) -> None:
         for stamped in message.transforms:

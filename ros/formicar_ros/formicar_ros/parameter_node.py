@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import difflib
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
+from lifecycle_msgs.srv import ChangeState
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.lifecycle import LifecycleNode
 from rclpy.parameter import Parameter
@@ -27,8 +30,23 @@ class ParameterNode(LifecycleNode):  # type: ignore[misc]
         self._settings: Settings | None = None
         self._config_keys: dict[str, list[str]] = {}
         super().__init__(name, **how)
+        self._guard_transitions()
         for parameter, default, descriptor in node_declarations():
             self.declare_parameter(parameter, default, descriptor)
+
+    def _guard_transitions(self) -> None:
+        """Refuse transitions that the state does not allow; rclpy raises, and answers nobody."""
+        for service in self.services:
+            if service.srv_type is ChangeState:
+                service.callback = partial(self._change_state, service.callback)
+
+    def _change_state(self, change: Callable[[Any, Any], Any], request: Any, response: Any) -> Any:
+        try:
+            return change(request, response)
+        except RuntimeError as error:
+            self.get_logger().warning(f"no transition {request.transition.id} now: {error}")
+            response.success = False
+            return response
 
     @property
     def settings(self) -> Settings:

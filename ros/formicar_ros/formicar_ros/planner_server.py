@@ -42,6 +42,9 @@ LATCHED = QoSProfile(
     depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL, reliability=ReliabilityPolicy.RELIABLE
 )
 
+# How often the map that is planned on is shown, if it has changed, seconds.
+SHOW_S = 0.5
+
 
 class PlannerServer(ParameterNode):
     """Plans for Nav2.
@@ -137,7 +140,7 @@ class PlannerServer(ParameterNode):
         self._marker_publisher = self._publisher(MarkerArray, "plan_markers", 1)
         self._costmap_publisher: Any = None
         self._open_costmap()
-        self._listening = Listening(self, self._store, self._transforms, self._on_map)
+        self._listening = Listening(self, self._store, self._transforms)
         service = self.create_service(IsPathValid, "is_path_valid", self._on_is_path_valid)
         self._made.append((self.destroy_service, service))
         kept_s = float(self.value("action_server_result_timeout"))
@@ -172,6 +175,8 @@ class PlannerServer(ParameterNode):
             return
         self._costmap_publisher = self.create_publisher(OccupancyGrid, own, LATCHED)
         self._made.append((self.destroy_publisher, self._costmap_publisher))
+        self._n_shown = 0
+        self._made.append((self.destroy_timer, self.create_timer(SHOW_S, self._show_map)))
         clear = self.create_service(
             ClearEntireCostmap, "global_costmap/clear_entirely_global_costmap", self._on_clear
         )
@@ -335,11 +340,12 @@ class PlannerServer(ParameterNode):
         put(response, success=True)
         return response
 
-    def _on_map(self) -> None:
-        """Show the map that is planned on, as a global costmap does."""
-        frame = self._store.frame
-        if self._costmap_publisher is None or frame is None:
+    def _show_map(self) -> None:
+        """Show the map that is planned on, as a global costmap does, if it has changed."""
+        number, frame = self._store.number, self._store.frame
+        if frame is None or number == self._n_shown:
             return
+        self._n_shown = number
         message = OccupancyGrid()
         message.header.frame_id = self._frames().fixed
         message.header.stamp = self.get_clock().now().to_msg()
@@ -379,6 +385,16 @@ def _bytes_of(cells: Any) -> Any:
     return array("b", np.ascontiguousarray(cells).tobytes())
 
 
+def _spin(executor: PlanningExecutor, node: PlannerServer) -> None:
+    """Spin, and outlive callbacks that fail."""
+    try:
+        executor.spin()
+    except (KeyboardInterrupt, ExternalShutdownException):
+        raise
+    except Exception as error:  # One message or request must not end the node.
+        node.get_logger().error(f"internal failure: {type(error).__name__}: {error}")
+
+
 def main(args: list[str] | None = None) -> None:
     """Run the node until it is shut down."""
     # A thread that makes a long message lets the one that answers in after a millisecond.
@@ -390,7 +406,8 @@ def main(args: list[str] | None = None) -> None:
     try:
         if node.value("autostart"):
             node.start_alone()
-        executor.spin()
+        while rclpy.ok():
+            _spin(executor, node)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import os
 import signal
 import subprocess
@@ -14,9 +13,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from . import domains
 from .peer import Peer
-
-_domains = itertools.count(os.getpid())
 
 
 class Server:
@@ -54,7 +52,7 @@ class World:
     """A domain with a peer and, once started, servers."""
 
     def __init__(self, directory: Path) -> None:
-        self.domain = 1 + next(_domains) % 100
+        self.domain = domains.claim()
         self.directory = directory
         self.peer = Peer(self.domain)
         self.servers: list[Server] = []
@@ -71,6 +69,7 @@ class World:
     def close(self) -> None:
         codes = [server.end() for server in self.servers if server.is_alive]
         self.peer.close()
+        domains.release(self.domain)
         assert all(code == 0 for code in codes), f"servers ended with {codes}"
 
 

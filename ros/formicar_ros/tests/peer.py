@@ -25,6 +25,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from tf2_msgs.msg import TFMessage
 
 PATIENCE_S = 30.0
+MEETING_S = 0.7
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 ACCEPTED, EXECUTING, SUCCEEDED, CANCELED, ABORTED = 1, 2, 4, 5, 6
@@ -42,6 +43,7 @@ class Peer:
             self.thread.start()
         self._publishers: dict[str, Any] = {}
         self._clients: dict[str, Any] = {}
+        self._met: list[Any] = []
         self.to_pose = ActionClient(self.node, ComputePathToPose, "compute_path_to_pose")
         self.through = ActionClient(
             self.node, ComputePathThroughPoses, "compute_path_through_poses"
@@ -123,9 +125,16 @@ class Peer:
 
     def send(self, client: ActionClient, goal: Any) -> Any:
         assert client.wait_for_server(PATIENCE_S), "no action server"
+        self._let_meet(client)
         # On the thread that spins: an answer that is quicker than the sender would be dropped.
         sending = self.executor.create_task(client.send_goal_async, goal)
         return self.result(self.result(sending))
+
+    def _let_meet(self, client: Any) -> None:
+        """Wait until answers reach a new client too, which may be later than its requests do."""
+        if client not in self._met:
+            time.sleep(MEETING_S)
+            self._met.append(client)
 
     def plan(self, goal: Any, **how: Any) -> Any:
         """Ask for a path to a pose, and return status and result."""
@@ -148,6 +157,7 @@ class Peer:
         if name not in self._clients:
             self._clients[name] = self.node.create_client(kind, name)
         assert self._clients[name].wait_for_service(PATIENCE_S), f"no service {name}"
+        self._let_meet(self._clients[name])
         return self.result(self._clients[name].call_async(asked))
 
     def change(self, transition: str) -> bool:

@@ -6,7 +6,7 @@ from typing import Any
 
 import formicar
 import numpy as np
-from nav2_msgs.action import ComputePathThroughPoses, ComputePathToPose
+from nav2_msgs.action import ComputePathToPose
 from nav2_msgs.srv import ClearEntireCostmap, IsPathValid
 from nav_msgs.msg import Path
 
@@ -92,4 +92,3 @@ def test_the_costmap_can_be_cleared(shared: World) -> None:
     name = "global_costmap/clear_entirely_global_costmap"
     answer = shared.peer.call(ClearEntireCostmap, name, ClearEntireCostmap.Request())
     assert getattr(answer, "success", True)
-    assert ComputePathThroughPoses is not None

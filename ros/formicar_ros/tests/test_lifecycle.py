@@ -30,6 +30,15 @@ def test_a_manager_leads_the_node_through_its_life(world: World) -> None:
     assert peer.change("unconfigured_shutdown")
 
 
+def test_a_transition_that_the_state_does_not_allow_is_refused(world: World) -> None:
+    world.start()
+    wait_until(lambda: world.peer.state() == "active", "the active state")
+    for transition in ("configure", "activate", "cleanup"):
+        assert not world.peer.change(transition)
+    assert world.peer.state() == "active"
+    assert world.peer.change("deactivate")
+
+
 def test_deactivation_ends_a_goal(world: World) -> None:
     world.start(costmap_update_timeout=60.0)
     handle = world.peer.ask(GOAL, start=START)

@@ -6,11 +6,12 @@ import time
 
 import numpy as np
 from bond.msg import Status
+from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray
 from lifecycle_msgs.srv import ChangeState
-from nav2_msgs.action import ComputePathThroughPoses, ComputePathToPose
 from nav2_msgs.srv import ClearEntireCostmap, IsPathValid
 from nav_msgs.msg import OccupancyGrid
+from rosgraph_msgs.msg import Clock
 from visualization_msgs.msg import MarkerArray
 
 from .conftest import World, hall
@@ -162,6 +163,22 @@ def test_markers_show_the_swept_ground_and_the_tightest_place(world: World) -> N
     assert tight.ns == "tightest_place" and text.text.endswith(" m")
 
 
+def test_the_clock_of_a_simulation_is_the_clock(world: World) -> None:
+    world.start(use_sim_time="true", transform_tolerance=0.5)
+    peer = world.peer
+    peer.send_map(hall())
+    clock = peer.publisher(Clock, "/clock", 10)
+    wait_until(lambda: clock.get_subscription_count() > 0, "a reader of the clock")
+
+    def at(second: int) -> str:
+        clock.publish(Clock(clock=Time(sec=second)))
+        peer.send_tf("map", "base_link", START, age_s=time.time() - 100.0)
+        return str(peer.plan(GOAL).result.error_msg)
+
+    wait_until(lambda: at(100) == "", "the time of the simulation")
+    wait_until(lambda: "60.00 s old" in at(160), "a minute later")
+
+
 def test_two_actions_do_not_disturb_each_other(world: World) -> None:
     world.start()
     world.peer.send_map(hall())
@@ -169,4 +186,3 @@ def test_two_actions_do_not_disturb_each_other(world: World) -> None:
     other = world.peer.ask_through([(4.0, 6.5, 0.0), GOAL], start=START)
     assert world.peer.outcome(one).status == SUCCEEDED
     assert world.peer.outcome(other).status == SUCCEEDED
-    assert ComputePathToPose is not ComputePathThroughPoses
