@@ -23,10 +23,5 @@ setup(
         (f"share/{NAME}/config", glob("config/*")),
         (f"share/{NAME}/launch", glob("launch/*")),
     ],
-    entry_points={
-        "console_scripts": [
-            f"planner_server = {NAME}.planner_server:main",
-            f"migrate = {NAME}.migrate:main",
-        ]
-    },
+    entry_points={"console_scripts": [f"planner_server = {NAME}.planner_server:main"]},
 )

@@ -77,6 +77,11 @@ class PlannerServer(ParameterNode):
         for line in self._lines:
             line.stop_all("the node is shut down")
 
+    def close(self) -> None:
+        """Destroy everything that is made while the node is configured."""
+        self._is_active = False
+        self._close()
+
     # What a lifecycle manager asks.
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -413,6 +418,8 @@ def main(args: list[str] | None = None) -> None:
     finally:
         node.stop()
         executor.shutdown()
+        # Goals before their server, and it before the node: rclpy does not keep them in order.
+        node.close()
         node.destroy_node()
         rclpy.try_shutdown()
 

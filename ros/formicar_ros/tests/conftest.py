@@ -26,7 +26,7 @@ class Server:
         with log.open("ab") as file:
             self.process = subprocess.Popen(
                 [sys.executable, "-m", "formicar_ros.planner_server", "--ros-args", *given],
-                env={**os.environ, "ROS_DOMAIN_ID": str(domain)},
+                env={**os.environ, "ROS_DOMAIN_ID": str(domain), "PYTHONFAULTHANDLER": "1"},
                 stdout=file,
                 stderr=subprocess.STDOUT,
             )
@@ -70,7 +70,8 @@ class World:
         codes = [server.end() for server in self.servers if server.is_alive]
         self.peer.close()
         domains.release(self.domain)
-        assert all(code == 0 for code in codes), f"servers ended with {codes}"
+        logs = "\n".join(server.log.read_text() for server in self.servers)
+        assert all(code == 0 for code in codes), f"servers ended with {codes}:\n{logs}"
 
 
 @pytest.fixture
