@@ -270,8 +270,8 @@ def test_a_plan_of_motion_survives_pickling_bit_for_bit(plan: Plan) -> None:
 def test_the_same_drive_as_the_command_line_bit_for_bit(
     program: Path, tmp_path: Path, flags: tuple[str, ...]
 ) -> None:
-    moving = Predictions([MovingObstacle(radius_m=0.2, pose=(12, 2, 0), speed_mps=0.5)], 20)
-    moving.save(tmp_path / "moving.json")
+    slow = MovingObstacle(radius_m=0.3, pose=(45, 24, 0), speed_mps=0.25, growth_mps=0.001)
+    Predictions([slow], 60).save(tmp_path / "moving.json")
     out = tmp_path / "plan.json"
     words = ("plan", "--map", "parking-lot", "--request", "back-in", "--budget", "none")
     among = ("--moving", str(tmp_path / "moving.json"), *flags, "--out", str(out))
@@ -286,7 +286,8 @@ def test_the_same_drive_as_the_command_line_bit_for_bit(
         Predictions.load(tmp_path / "moving.json"),
         **keywords,
     )
-    assert motion.to_dict() == answer["motion"]
+    assert motion.to_dict() == answer["motion"] and motion.lost_s > 1
+    assert answer["motion"]["profile"]["source"] == "lattice"
     poses = [pose for pose in answer["path"]["poses"] if pose["time"] is not None]
     for name, key in (("t", "time"), ("speed", "speed"), ("steer_rate", "steer_rate")):
         assert motion.poses[name].tolist() == [pose[key] for pose in poses]
