@@ -8,7 +8,7 @@ use crate::vehicle::Car;
 use formicar::motion::{MotionConfig, MotionError, MotionStatus};
 use formicar::path::{CurvePath, Phase, Spacing, SpeedLimits, TimedPath};
 use formicar::planner::{
-    DriveError, DriveQuestion, MotionRecord, MovingDocument, PathDocument, PoseRecord,
+    DriveError, DriveQuestion, MotionRecord, MovingDocument, PathDocument, PoseRecord, TimedPlan,
     drive_in_time,
 };
 use formicar::scenario::{Predicted, Predictions};
@@ -130,21 +130,7 @@ impl Motion {
             Ok::<_, errors::Failed>((path, drive))
         });
         let (path, drive) = planned?;
-        let (record, regions) = match drive {
-            Ok(plan) => {
-                let regions = plan.motion.regions.iter();
-                let closed = regions.map(|r| (r.obstacle, r.from_s, r.to_s, r.from_m, r.to_m));
-                (MotionRecord::new(&question, &plan), closed.collect())
-            }
-            Err(
-                error @ (DriveError::Motion(MotionError::Unavoidable { .. })
-                | DriveError::Refused(_)),
-            ) => {
-                let reason = Some(error.to_string());
-                (MotionRecord::refused(&question, reason), Vec::new())
-            }
-            Err(error) => return Err(error.into()),
-        };
+        let (record, regions) = recorded(drive, &question)?;
         Ok(Self::made(path, record, regions, (grid, car))?)
     }
 
@@ -335,6 +321,27 @@ impl Motion {
             self.path.timed(&timed, &obstacles, &self.car.vehicle)
         });
         &timed.poses
+    }
+}
+
+/// The record of a drive with what was closed meanwhile, or of there being none.
+fn recorded(
+    drive: Result<TimedPlan, DriveError>,
+    question: &DriveQuestion,
+) -> Outcome<(MotionRecord, Vec<Closed>)> {
+    match drive {
+        Ok(plan) => {
+            let regions = plan.motion.regions.iter();
+            let closed = regions.map(|r| (r.obstacle, r.from_s, r.to_s, r.from_m, r.to_m));
+            Ok((MotionRecord::new(question, &plan), closed.collect()))
+        }
+        Err(
+            error @ (DriveError::Motion(MotionError::Unavoidable { .. }) | DriveError::Refused(_)),
+        ) => {
+            let reason = Some(error.to_string());
+            Ok((MotionRecord::refused(question, reason), Vec::new()))
+        }
+        Err(error) => Err(error.into()),
     }
 }
 

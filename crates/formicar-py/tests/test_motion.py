@@ -219,6 +219,8 @@ def test_requests_that_cannot_be_are_refused(motion: MotionPlan, planner: Planne
         plan_motion(planner.plan((2, 2, 0), (10, 2, 0), budget=3))
     with pytest.raises(TypeError, match="hint: 'max_speed_mps'"):
         plan_motion(STRAIGHT, None, ROOM, max_speed=1.0)  # type: ignore[call-arg]
+    with pytest.raises(TypeError, match="expected Predictions; hint"):
+        plan_motion(STRAIGHT, [walker()], ROOM)  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="made by plan_motion"):
         MotionPlan()
 
@@ -227,7 +229,7 @@ def test_the_judge_names_place_and_time_of_what_is_violated(motion: MotionPlan) 
     assert motion.judge() == motion.certificate
     sooner = Predictions([walker(5.5, -0.3)], 20)
     hit = motion.judge(sooner)
-    assert not hit and hit.nearest and hit.min_distance_m is not None
+    assert not hit.valid and hit.nearest and hit.min_distance_m is not None
     worst = next(one for one in hit.violations if one.kind == "distance")
     assert worst.limit == 0.1 and worst.amount < 0.1
     at = motion.at([worst.t_s])
@@ -248,6 +250,8 @@ def test_profiles_from_anywhere_are_judged(motion: MotionPlan) -> None:
     jump = rows.copy()
     jump[2:, 1] += 0.1
     assert {one.kind for one in motion.judge(profile=jump).violations} >= {"discontinuity"}
+    endless = motion.judge(profile=[[0, 0, 0, 0, 0, 1e300]])
+    assert [one.kind for one in endless.violations] == ["distance"], "nothing is proven of it"
     rows[0, 2] = np.nan
     assert [one.kind for one in motion.judge(profile=rows).violations] == ["malformed"]
     with pytest.raises(InvalidPath, match=r"expected \(n, 6\)"):

@@ -11,7 +11,7 @@ from ._formicar import InvalidPath
 from ._hints import suggests
 from ._lazy import np
 from ._map import OccupancyGrid
-from ._moving import Predictions, times_of
+from ._moving import Predictions, predictions_of, times_of
 from ._paths import track_of
 from ._plan import Plan
 from ._records import TimedCertificate, timed_certificate_of
@@ -223,9 +223,9 @@ class MotionPlan:
         }
         own = self.config
         limits, settings = _split({**own.pop("limits"), **own, **_known(given)})
-        moving = self.predictions if predictions is None else predictions
+        core = predictions_of(self.predictions if predictions is None else predictions)
         rows = None if profile is None else _rows_of(profile)
-        return timed_certificate_of(self._core.judged(moving._core, limits, settings, rows))
+        return timed_certificate_of(self._core.judged(core, limits, settings, rows))
 
     def to_dict(self) -> dict[str, Any]:
         """Return the part ``motion`` of an answer, as the command line writes it."""
@@ -382,11 +382,11 @@ def plan_motion(
         "time_step_s": time_step_s,
     }
     # Where nothing moves, any horizon serves.
-    moving = Predictions([], horizon_s=1.0) if predictions is None else predictions
+    moving = predictions_of(Predictions([], 1.0) if predictions is None else predictions)
     track, grid, car, _ = track_of(path, map, vehicle)
     limits, settings = _split(_known(given))
     scene = (grid._core, car._core)
-    return MotionPlan._of(_formicar.Motion(track, scene, moving._core, limits, settings))
+    return MotionPlan._of(_formicar.Motion(track, scene, moving, limits, settings))
 
 
 def track_in_time(

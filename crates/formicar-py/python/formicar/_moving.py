@@ -278,6 +278,23 @@ class Predictions:
         return (Predictions.from_dict, (self.to_dict(),))
 
 
+def predictions_of(predictions: object) -> _formicar.Moving:
+    """Return predictions as the compiled part takes them.
+
+    Raises
+    ------
+    TypeError
+        Something else.
+    """
+    if isinstance(predictions, Predictions):
+        return predictions._core
+    kind = type(predictions).__name__
+    raise TypeError(
+        f"predictions is of type {kind}; expected Predictions; hint: Predictions(obstacles, "
+        "horizon_s=30)"
+    )
+
+
 def times_of(t_s: ArrayLike) -> NDArray[np.float64]:
     """Return times as a contiguous array.
 
