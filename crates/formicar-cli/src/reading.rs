@@ -5,11 +5,12 @@
 use crate::commands::{bench, machine};
 #[cfg(feature = "mapping")]
 use crate::lidar;
-use crate::{scene, settings};
+use crate::{motion_files, scene, settings};
 use anyhow::Result;
 #[cfg(feature = "mapping")]
 use formicar::Pose2;
 use formicar::planner::PlannerConfig;
+use formicar::scenario::Predictions;
 use formicar::vehicle::{Motion, Vehicle};
 #[cfg(feature = "lab")]
 use formicar_lab::{campaign::Campaign, run::Sources};
@@ -97,4 +98,12 @@ pub fn sources() -> impl Sources {
 #[cfg(feature = "lab")]
 pub fn machine() -> String {
     machine::name()
+}
+
+/// Moving obstacles with their predictions, as `plan --moving` reads them.
+///
+/// # Errors
+/// A file that cannot be read, another schema, or predictions that make no sense.
+pub fn moving(path: &Path) -> Result<Predictions> {
+    motion_files::moving(path, None)
 }

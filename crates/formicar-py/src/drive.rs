@@ -2,11 +2,14 @@
 
 use crate::errors::{self, Outcome};
 use crate::grid::Grid;
+use crate::motion::Motion;
 use crate::path::Track;
 use crate::values;
 use crate::vehicle::Car;
 use formicar::path::CurvePath;
-use formicar::tracking::{DrivenClearance, TracePoint, Tracking, TrackingConfig, track};
+use formicar::tracking::{
+    DrivenClearance, TracePoint, Tracking, TrackingConfig, track, track_in_time,
+};
 use numpy::IntoPyArray;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -27,9 +30,7 @@ impl Drive {
     #[new]
     fn new(path: &Track, grid: Py<Grid>, car: &Car, settings: &Bound<'_, PyDict>) -> Outcome<Self> {
         let py = settings.py();
-        let settings = values::to_json(settings, "track", errors::config)?;
-        let config: TrackingConfig = values::document(settings, "track", errors::config)?;
-        let config = config.for_vehicle(&car.vehicle)?;
+        let config = config(settings, car)?;
         let obstacles = grid.get().obstacles();
         let (path, vehicle) = (path.clone(), car.vehicle.clone());
         let (planned, tracking, clearance) = py.detach(|| {
@@ -44,6 +45,28 @@ impl Drive {
             clearance,
             grid,
             car: car.clone(),
+        })
+    }
+
+    /// Drives a vehicle along a path with its times.
+    #[staticmethod]
+    fn in_time(motion: &Motion, settings: &Bound<'_, PyDict>) -> Outcome<Self> {
+        let py = settings.py();
+        let (grid, car) = motion.scene(py);
+        let config = config(settings, &car)?;
+        let timed = motion.timed_path()?;
+        let obstacles = grid.get().obstacles();
+        let (tracking, clearance) = py.detach(|| {
+            let tracking = track_in_time(&timed, Some(&obstacles), &car.vehicle, &config)?;
+            let clearance = tracking.clearance(&obstacles, &car.vehicle);
+            Ok::<_, errors::Failed>((tracking, clearance))
+        })?;
+        Ok(Self {
+            planned: timed.path().clone(),
+            tracking,
+            clearance,
+            grid,
+            car,
         })
     }
 
@@ -76,6 +99,9 @@ impl Drive {
         columns.set_item("right_wheel", column(&|p| p.right_wheel_rad))?;
         columns.set_item("cross_track_error", column(&|p| p.cross_track_error_m))?;
         columns.set_item("heading_error", column(&|p| p.heading_error_rad))?;
+        if self.tracking.trace.iter().any(|p| p.speed_mps.is_some()) {
+            columns.set_item("speed", column(&|p| p.speed_mps.unwrap_or(f64::NAN)))?;
+        }
         Ok(columns)
     }
 
@@ -107,4 +133,11 @@ impl Drive {
             formicar::render::drive_picture(&picture).to_svg()
         })
     }
+}
+
+/// The parameters of a drive, completed by the vehicle.
+fn config(settings: &Bound<'_, PyDict>, car: &Car) -> Outcome<TrackingConfig> {
+    let settings = values::to_json(settings, "track", errors::config)?;
+    let config: TrackingConfig = values::document(settings, "track", errors::config)?;
+    Ok(config.for_vehicle(&car.vehicle)?)
 }

@@ -2,8 +2,9 @@
 
 use formicar::map::MapError;
 use formicar::map::format::FormatError;
-use formicar::planner::PlanError;
-use formicar::scenario::ScenarioError;
+use formicar::motion::MotionError;
+use formicar::planner::{DriveError, PlanError};
+use formicar::scenario::{MovingError, ScenarioError};
 use formicar::tracking::TrackingError;
 use formicar::tuning::TuningError;
 use formicar::vehicle::VehicleError;
@@ -52,6 +53,13 @@ create_exception!(
     "Scans, odometry, a log, a bag or a session that make no map."
 );
 
+create_exception!(
+    formicar,
+    InvalidObstacle,
+    PyValueError,
+    "A shape, a motion, a horizon or a document that make no moving obstacles."
+);
+
 /// A request that cannot be asked.
 pub(crate) fn invalid_request(message: impl Display) -> PyErr {
     InvalidRequest::new_err(message.to_string())
@@ -75,6 +83,11 @@ pub(crate) fn vehicle(error: impl Display) -> PyErr {
 /// A path that cannot be.
 pub(crate) fn path(error: impl Display) -> PyErr {
     InvalidPath::new_err(error.to_string())
+}
+
+/// A moving obstacle that cannot be.
+pub(crate) fn obstacle(message: String) -> PyErr {
+    InvalidObstacle::new_err(message)
 }
 
 /// A log that cannot be; the chain of causes in one line.
@@ -152,6 +165,33 @@ impl From<TrackingError> for Failed {
             TrackingError::NeedsACar | TrackingError::NeedsAWheelbase => vehicle(error),
             _ => path(error),
         })
+    }
+}
+
+impl From<MovingError> for Failed {
+    fn from(error: MovingError) -> Self {
+        Self(match error {
+            MovingError::OffTheMap { .. } | MovingError::InsideTheVehicle { .. } => {
+                invalid_request(error)
+            }
+            _ => obstacle(error.to_string()),
+        })
+    }
+}
+
+impl From<MotionError> for Failed {
+    fn from(error: MotionError) -> Self {
+        Self(config(error))
+    }
+}
+
+impl From<DriveError> for Failed {
+    fn from(error: DriveError) -> Self {
+        match error {
+            DriveError::Moving(error) => error.into(),
+            DriveError::Motion(error) => error.into(),
+            _ => Self(path(error)),
+        }
     }
 }
 

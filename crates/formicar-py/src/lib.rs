@@ -13,6 +13,7 @@ mod grid;
 mod lidar_log;
 mod localizer;
 mod mapper;
+mod motion;
 mod observe;
 mod path;
 mod pictures;
@@ -67,7 +68,8 @@ mod _formicar {
     use crate::drive::Drive;
     #[pymodule_export]
     use crate::errors::{
-        ConfigError, InvalidLog, InvalidMap, InvalidPath, InvalidRequest, InvalidVehicle,
+        ConfigError, InvalidLog, InvalidMap, InvalidObstacle, InvalidPath, InvalidRequest,
+        InvalidVehicle,
     };
     #[pymodule_export]
     use crate::grid::Grid;
@@ -77,6 +79,8 @@ mod _formicar {
     use crate::localizer::MapLocalizer;
     #[pymodule_export]
     use crate::mapper::{LidarMap, LidarMapper};
+    #[pymodule_export]
+    use crate::motion::{Motion, Moving};
     #[pymodule_export]
     use crate::parameters;
     #[pymodule_export]

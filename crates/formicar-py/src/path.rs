@@ -221,6 +221,22 @@ impl Track {
         })
     }
 
+    /// The path, if the judge finds nothing wrong with it.
+    pub(crate) fn certified(
+        &self,
+        obstacles: &ObstacleMap,
+        vehicle: &Vehicle,
+    ) -> PyResult<CurvePath> {
+        let (path, report) = self.report(obstacles, vehicle);
+        match report.violations.first() {
+            None => Ok(path.clone()),
+            Some(violation) => Err(errors::path(format!(
+                "the path is not certified: {}; hint: check(path) lists what is wrong",
+                violation.message
+            ))),
+        }
+    }
+
     /// The path as a vehicle drives it on a map.
     pub(crate) fn driven(&self, obstacles: &ObstacleMap, vehicle: &Vehicle) -> CurvePath {
         self.report(obstacles, vehicle).0.clone()

@@ -29,16 +29,30 @@ from ._formicar import (
     ConfigError,
     InvalidLog,
     InvalidMap,
+    InvalidObstacle,
     InvalidPath,
     InvalidRequest,
     InvalidVehicle,
     __version__,
 )
 from ._map import OccupancyGrid, builtin_maps
+from ._motion import MotionPlan, plan_motion, track_in_time
+from ._moving import MovingObstacle, Predictions
 from ._paths import Check, check, metrics
 from ._plan import AntFrame, History, NoPath, Plan
 from ._planner import Planner, parameters, planners
-from ._records import Certificate, Disconnected, Explanation, Gap, Metrics, Timing, Violation
+from ._records import (
+    Certificate,
+    Disconnected,
+    Explanation,
+    Gap,
+    Metrics,
+    Nearest,
+    TimedCertificate,
+    TimedViolation,
+    Timing,
+    Violation,
+)
 from ._scenarios import Scenario, load_scenarios
 from ._track import Tracking, track
 from ._tune import Choice, Integer, Real, Tuning, tune
@@ -59,17 +73,24 @@ __all__ = [
     "Integer",
     "InvalidLog",
     "InvalidMap",
+    "InvalidObstacle",
     "InvalidPath",
     "InvalidRequest",
     "InvalidVehicle",
     "Metrics",
+    "MotionPlan",
+    "MovingObstacle",
+    "Nearest",
     "NoPath",
     "OccupancyGrid",
     "Plan",
     "Planner",
+    "Predictions",
     "Real",
     "ReedsShepp",
     "Scenario",
+    "TimedCertificate",
+    "TimedViolation",
     "Timing",
     "Tracking",
     "Tuning",
@@ -81,7 +102,9 @@ __all__ = [
     "load_scenarios",
     "metrics",
     "parameters",
+    "plan_motion",
     "planners",
     "track",
+    "track_in_time",
     "tune",
 ]

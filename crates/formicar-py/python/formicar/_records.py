@@ -118,6 +118,127 @@ def violation_of(document: Mapping[str, Any]) -> Violation:
     return record_of(Violation, {**document, "pose": pose_of(document["pose"])})
 
 
+class TimedViolation(NamedTuple):
+    """A violation during a drive.
+
+    Attributes
+    ----------
+    kind : str
+        ``distance``, ``speed``, ``acceleration``, ``lateral``, ``steer_rate``, ``jerk``, ``cusp``,
+        ``discontinuity`` or ``malformed``.
+    t_s : float
+        Time where it is worst, or where it was found, seconds.
+    s_m : float
+        Arc length there, meters.
+    pose : tuple of float
+        ``(x, y, heading)`` of the vehicle there, meters and radians.
+    amount, limit : float
+        The value found and the value allowed, in the unit of the limit.
+    message : str
+        Both as a sentence with units.
+    """
+
+    kind: str
+    t_s: float
+    s_m: float
+    pose: Pose
+    amount: float
+    limit: float
+    message: str
+
+
+class Nearest(NamedTuple):
+    """The moment at which a vehicle comes nearest to a moving obstacle.
+
+    Attributes
+    ----------
+    obstacle : str
+        The obstacle's name, or its number counted from 1.
+    t_s : float
+        Time, seconds.
+    s_m : float
+        Arc length, meters.
+    pose : tuple of float
+        ``(x, y, heading)`` of the vehicle, meters and radians.
+    distance_m : float
+        The distance, meters; negative where they overlap.
+    """
+
+    obstacle: str
+    t_s: float
+    s_m: float
+    pose: Pose
+    distance_m: float
+
+
+class TimedCertificate(NamedTuple):
+    """The judge's findings on a drive in time: true where nothing was violated.
+
+    Attributes
+    ----------
+    valid : bool
+        True if nothing was violated.
+    arrives : bool
+        True if the drive ends at the end of the path.
+    duration_s, horizon_s : float
+        Time of the drive, and time up to which obstacles are predicted, seconds.
+    distance_m : float
+        The distance that was to be kept, meters.
+    min_distance_m : float or None
+        Proven least distance of the body, with its safety margin, from every obstacle, with its
+        uncertainty, over drive and horizon, meters; ``None`` without obstacles.
+    nearest : Nearest or None
+        Where and when the body comes nearest; ``None`` without obstacles.
+    max_speed_mps : float
+        Highest speed, m/s.
+    max_acceleration_mps2, max_braking_mps2, max_lateral_mps2 : float
+        Largest acceleration, deceleration and lateral acceleration, m/s².
+    max_steer_rate_rad_per_s : float or None
+        Fastest change of the steering angle while driving, rad/s; ``None`` where the wheelbase is
+        not known.
+    max_jerk_mps3 : float
+        Largest jerk within a phase, m/s³.
+    violations : tuple of TimedViolation
+        The violations in order of time; empty where the drive is valid.
+    """
+
+    valid: bool
+    arrives: bool
+    duration_s: float
+    horizon_s: float
+    distance_m: float
+    min_distance_m: float | None
+    nearest: Nearest | None
+    max_speed_mps: float
+    max_acceleration_mps2: float
+    max_braking_mps2: float
+    max_lateral_mps2: float
+    max_steer_rate_rad_per_s: float | None
+    max_jerk_mps3: float
+    violations: tuple[TimedViolation, ...]
+
+    def __bool__(self) -> bool:
+        return self.valid
+
+
+def timed_certificate_of(document: Mapping[str, Any]) -> TimedCertificate:
+    """Make a certificate in time from its document."""
+    nearest = document.get("nearest")
+    violations = (
+        record_of(TimedViolation, {**violation, "pose": pose_of(violation["pose"])})
+        for violation in document["violations"]
+    )
+    return record_of(
+        TimedCertificate,
+        {
+            **document,
+            "nearest": nearest
+            and record_of(Nearest, {**nearest, "pose": pose_of(nearest["pose"])}),
+            "violations": tuple(violations),
+        },
+    )
+
+
 class Metrics(NamedTuple):
     """Exact metrics of a path, computed from its segments.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from . import _formicar
 from ._arrays import frozen, table_of
@@ -27,17 +27,60 @@ _SETTINGS = (
     "start_offset",
     "time_step_s",
 )
-_OF_LAW = {
+_OF_LAW: dict[str, tuple[str, ...]] = {
     "open-loop": (),
     "pure-pursuit": ("lookahead_m",),
     "stanley": ("gain_per_s", "softening_mps"),
 }
+_ACTUATORS = ("control_period_s", "delay_s", "max_acceleration_mps2", "max_braking_mps2")
+
+
+class Laws(NamedTuple):
+    """The settings of a simulation, and the parameters of each of its controllers."""
+
+    settings: tuple[str, ...]
+    of_law: dict[str, tuple[str, ...]]
+
+
+_AT_ONE_SPEED = Laws(_SETTINGS, _OF_LAW)
+IN_TIME = Laws(
+    (
+        *_ACTUATORS,
+        "give_up_error_m",
+        "max_steer_rate_rad_per_s",
+        "record_interval_s",
+        "start_offset",
+    ),
+    {
+        **_OF_LAW,
+        "regulated-pure-pursuit": (
+            "approach_m",
+            "lookahead_time_s",
+            "max_lookahead_m",
+            "min_lookahead_m",
+            "min_speed_mps",
+            "slow_clearance_m",
+            "slow_radius_m",
+        ),
+        "mpc": (
+            "acceleration_weight",
+            "across_weight",
+            "along_weight",
+            "heading_weight",
+            "n_steps",
+            "speed_weight",
+            "steer_rate_weight",
+            "steer_weight",
+            "step_s",
+        ),
+    },
+)
 
 
 class Tracking:
     """A simulated drive: true where the vehicle arrived and touched nothing.
 
-    Made by `track`.
+    Made by `track` and `track_in_time`.
     """
 
     _core: _formicar.Drive
@@ -88,7 +131,8 @@ class Tracking:
 
         Fields: ``t`` (s), ``x``, ``y`` (m), ``heading`` (rad), ``driven`` and ``s`` (m, along the
         drive and the path), ``direction`` (1 or -1), ``steer``, ``left_wheel``, ``right_wheel``
-        (rad), ``cross_track_error`` (m, positive left), ``heading_error`` (rad).
+        (rad), ``cross_track_error`` (m, positive left), ``heading_error`` (rad); of a drive in
+        time also ``speed`` (m/s, negative in reverse).
         """
         return frozen(table_of(self._core.columns(), {"direction": "i1"}))
 
@@ -159,23 +203,44 @@ def track(
     >>> bool(drive), drive.trace.dtype.names[:4]
     (True, ('t', 'x', 'y', 'heading'))
     """
-    if controller not in _OF_LAW:
-        raise ConfigError(f"controller = {controller!r}; there are {', '.join(_OF_LAW)}")
-    own = _OF_LAW[controller]
-    known = (*_SETTINGS, *own)
-    for word in settings:
-        if word in known:
-            continue
-        law = next((law for law, words in _OF_LAW.items() if word in words), None)
-        if law:
-            raise ConfigError(
-                f"{word}: {controller} has no such parameter; hint: controller={law!r}"
-            )
-        raise ConfigError(
-            f"track() has no setting {word!r}; there are {', '.join(known)}{nearest(word, known)}"
-        )
-    law_table = {"law": controller, **{word: settings[word] for word in own if word in settings}}
-    table = {word: value for word, value in settings.items() if word not in own}
+    table = settings_of("track", (controller, settings), _AT_ONE_SPEED)
     driven, grid, car, _ = track_of(path, map, vehicle)
-    core = _formicar.Drive(driven, grid._core, car._core, {"controller": law_table, **table})
-    return Tracking._of(core)
+    return Tracking._of(_formicar.Drive(driven, grid._core, car._core, table))
+
+
+def settings_of(function: str, given: tuple[str, dict[str, Any]], laws: Laws) -> dict[str, Any]:
+    """Return controller and settings as the compiled part takes them.
+
+    Raises
+    ------
+    ConfigError
+        A controller or a setting that does not exist.
+    """
+    controller, settings = given
+    if controller not in laws.of_law:
+        raise ConfigError(f"controller = {controller!r}; there are {', '.join(laws.of_law)}")
+    own = laws.of_law[controller]
+    known = (*laws.settings, *own)
+    for word in settings:
+        if word not in known:
+            raise ConfigError(_unknown(function, (controller, word), laws))
+    table: dict[str, Any] = {"controller": {"law": controller}}
+    for word, value in settings.items():
+        if word in own:
+            table["controller"][word] = value
+        elif word in _ACTUATORS:
+            table.setdefault("actuators", {})[word] = value
+        else:
+            table[word] = value
+    return table
+
+
+def _unknown(function: str, given: tuple[str, str], laws: Laws) -> str:
+    controller, word = given
+    law = next((law for law, words in laws.of_law.items() if word in words), None)
+    if law:
+        return f"{word}: {controller} has no such parameter; hint: controller={law!r}"
+    known = (*laws.settings, *laws.of_law[controller])
+    return (
+        f"{function}() has no setting {word!r}; there are {', '.join(known)}{nearest(word, known)}"
+    )

@@ -93,7 +93,8 @@ impl<'a> Distances<'a> {
                 report.min_distance_m = Some(found.proven_m);
                 report.nearest = Some(self.nearest(obstacle, &found));
             }
-            if found.proven_m < wished_m {
+            // A bound that is not a number, as over times beyond all measure, proves nothing.
+            if found.proven_m.is_nan() || found.proven_m < wished_m {
                 report.violations.push(self.violation(obstacle, &found));
             }
         }
