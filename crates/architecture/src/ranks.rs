@@ -166,6 +166,7 @@ pub const PYTHON: &[&str] = &[
     "planner",
     "path",
     "curves",
+    "motion",
     "drive",
     "bees",
     "campaign",
