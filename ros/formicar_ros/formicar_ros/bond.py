@@ -27,17 +27,24 @@ class Bond:
         if self._status is None or self._period_s <= 0.0:
             return
         self._id = uuid.uuid4().hex
-        self._publisher = self._node.create_publisher(self._status, "bond", QoSProfile(depth=100))
+        if self._publisher is None:
+            quality = QoSProfile(depth=100)
+            self._publisher = self._node.create_publisher(self._status, "bond", quality)
         self._timer = self._node.create_timer(self._period_s, self._beat)
 
     def break_(self) -> None:
-        """Say goodbye."""
-        if self._publisher is None:
+        """Say goodbye; the publisher stays, so that the last word is delivered."""
+        if self._timer is None:
             return
         self._node.destroy_timer(self._timer)
+        self._timer = None
         self._publish(active=False)
-        self._node.destroy_publisher(self._publisher)
-        self._publisher = self._timer = None
+
+    def destroy(self) -> None:
+        """Give back the publisher."""
+        if self._publisher is not None:
+            self._node.destroy_publisher(self._publisher)
+            self._publisher = None
 
     def _beat(self) -> None:
         self._publish(active=True)

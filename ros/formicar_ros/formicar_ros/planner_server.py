@@ -197,7 +197,7 @@ class PlannerServer(ParameterNode):
             line.destroy()
         for destroy, entity in self._made:
             destroy(entity)
-        for part in (self._listening, self._diagnostics):
+        for part in (self._listening, self._diagnostics, self._bond):
             if part is not None:
                 part.destroy()
         self._lines, self._made = [], []
