@@ -104,6 +104,8 @@ pub const RECORD: &[&str] = &[
     "bag",
     "frames",
     "grid",
+    "beams",
+    "ride",
     "log",
     "recording",
 ];

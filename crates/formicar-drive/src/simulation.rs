@@ -32,7 +32,7 @@ pub struct SimulationConfig {
     pub position_noise_m: f64,
     /// Standard deviation of a measured heading, radians.
     pub heading_noise_rad: f64,
-    /// Delay, acceleration and control period.
+    /// Delay, acceleration and control period; brakes are as strong as the motor where left out.
     pub actuators: Actuators,
     /// Fastest change of the steering angle, rad/s; that of the vehicle where left out.
     pub max_steer_rate_rad_per_s: Option<f64>,

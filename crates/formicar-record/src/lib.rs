@@ -7,6 +7,7 @@
 #![forbid(unsafe_code)]
 
 mod bag;
+mod beams;
 pub mod cdr;
 mod error;
 mod foreign;
@@ -16,6 +17,7 @@ mod log;
 pub mod messages;
 mod qos;
 mod recording;
+mod ride;
 mod topic;
 mod walk;
 mod writer;

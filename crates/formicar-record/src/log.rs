@@ -1,9 +1,11 @@
 //! The lidar log of a bag: scans, odometry at each of them, the laser's place on the robot.
 
 use crate::bag::Bag;
+use crate::beams::{Mount, scan_of, turned};
 use crate::error::RecordError;
 use crate::frames::{Frames, Pose3, PoseTrack, plain};
 use crate::messages::{LaserScan as ScanMessage, Odometry, TFMessage};
+use crate::ride::{Motion, Ride};
 use formicar::Pose2;
 use formicar_mapping::{LaserScan, Log};
 use std::io::{Read, Seek};
@@ -21,8 +23,6 @@ pub struct LogOptions {
     pub no_odometry: bool,
 }
 
-/// The largest angle between a laser's axis and the vertical, degrees.
-const MAX_TILT_DEG: f64 = 3.0;
 /// The most ranges of a log: 4 GiB of them.
 const MAX_RANGES: usize = 1 << 30;
 
@@ -53,9 +53,9 @@ pub fn read_log<R: Read + Seek>(
         let words = "the scans have no times in their headers: those of the recording are used";
         log.warnings.push(words.to_owned());
     }
-    let drive = contents.drive(&frame, options);
-    if let Some(drive) = drive.filter(|_| !options.no_odometry) {
-        drive.fill(&mut log, scans, &frame)?;
+    let ride = contents.ride(&frame, options);
+    if let Some(ride) = ride.filter(|_| !options.no_odometry) {
+        ride.fill(&mut log, scans, &frame)?;
     } else {
         if !options.no_odometry {
             let words = "the bag has no odometry: motion comes from the scans alone";
@@ -197,7 +197,7 @@ impl Contents {
     }
 
     /// The motion of the robot, from odometry or transforms; none where there is neither.
-    fn drive<'a>(&'a self, frame: &str, options: &LogOptions) -> Option<Drive<'a>> {
+    fn ride<'a>(&'a self, frame: &str, options: &LogOptions) -> Option<Ride<'a>> {
         let (source, base) = if self.odometry.is_empty() {
             let (odom, base) = self.frames.odometry(frame)?;
             (Motion::Frame(odom), base)
@@ -209,7 +209,7 @@ impl Contents {
                 .unwrap_or_else(usual);
             (Motion::Odometry(&self.odometry), base)
         };
-        Some(Drive {
+        Some(Ride {
             source,
             base,
             frames: &self.frames,
@@ -245,146 +245,6 @@ fn check_size(n_ranges: usize) -> Result<(), RecordError> {
         limit: format!("a log has at most {MAX_RANGES}"),
         hint: "split the bag, and build the map log after log with --session".to_owned(),
     })
-}
-
-/// A scan, with beams counter-clockwise.
-fn scan_of(message: &ScanMessage, time_s: f64) -> LaserScan {
-    let within = |&range: &f32| {
-        if range < message.range_min {
-            0.0
-        } else if range > message.range_max {
-            f32::INFINITY
-        } else {
-            range
-        }
-    };
-    let scan = LaserScan {
-        time_s,
-        first_angle_rad: f64::from(message.angle_min),
-        angle_step_rad: f64::from(message.angle_increment),
-        ranges_m: message.ranges.iter().map(within).collect(),
-    };
-    if scan.angle_step_rad < 0.0 {
-        backwards(scan)
-    } else {
-        scan
-    }
-}
-
-/// The same beams in the other order.
-fn backwards(mut scan: LaserScan) -> LaserScan {
-    scan.first_angle_rad = scan.angle_rad(scan.ranges_m.len().saturating_sub(1));
-    scan.angle_step_rad = -scan.angle_step_rad;
-    scan.ranges_m.reverse();
-    scan
-}
-
-/// The scan as a laser that stands upright would have taken it.
-fn turned(mut scan: LaserScan, is_flipped: bool) -> LaserScan {
-    if !is_flipped {
-        return scan;
-    }
-    scan.first_angle_rad = -scan.first_angle_rad;
-    scan.angle_step_rad = -scan.angle_step_rad;
-    backwards(scan)
-}
-
-/// The laser on the robot.
-#[derive(Clone, Copy, Debug)]
-struct Mount {
-    pose: Pose2,
-    is_flipped: bool,
-}
-
-impl Mount {
-    fn new(pose: Pose3, frame: &str) -> Result<Self, RecordError> {
-        let [_, _, up] = pose.turned([0.0, 0.0, 1.0]);
-        let tilt_deg = up.abs().min(1.0).acos().to_degrees();
-        if tilt_deg > MAX_TILT_DEG {
-            return Err(RecordError::Tilted {
-                frame: frame.to_owned(),
-                tilt_deg,
-                limit_deg: MAX_TILT_DEG,
-            });
-        }
-        Ok(Self {
-            pose: pose.in_plane(),
-            is_flipped: up < 0.0,
-        })
-    }
-}
-
-/// The source of a robot's motion.
-enum Motion<'a> {
-    Odometry(&'a PoseTrack),
-    /// Its frame is that of transforms.
-    Frame(String),
-}
-
-/// A robot with its laser over time.
-struct Drive<'a> {
-    source: Motion<'a>,
-    /// The frame on the robot that the motion is that of.
-    base: String,
-    frames: &'a Frames,
-    laser_pose: Option<Pose3>,
-}
-
-impl Drive<'_> {
-    fn base_at(&self, time_s: f64) -> Option<Pose2> {
-        let pose = match &self.source {
-            Motion::Odometry(track) => track.at(time_s),
-            Motion::Frame(odom) => self.frames.pose_in(&self.base, odom, time_s).ok(),
-        };
-        pose.map(Pose3::in_plane)
-    }
-
-    fn mount_at(&self, frame: &str, time_s: f64) -> Result<Mount, RecordError> {
-        if let Some(pose) = self.laser_pose {
-            return Mount::new(pose, frame);
-        }
-        let pose = self.frames.pose_in(frame, &self.base, time_s);
-        let pose = pose.map_err(|reason| RecordError::Frames {
-            from: frame.to_owned(),
-            to: self.base.clone(),
-            reason,
-            hint: "--laser-pose X,Y,H says where the laser is on the robot, and --no-odometry \
-                   needs no such place",
-        })?;
-        Mount::new(pose, frame)
-    }
-
-    /// Adds scans and odometry to a log.
-    fn fill(&self, log: &mut Log, scans: Vec<LaserScan>, frame: &str) -> Result<(), RecordError> {
-        let n_scans = scans.len();
-        let mut odometry = Vec::with_capacity(n_scans);
-        for scan in scans {
-            let Some(base) = self.base_at(scan.time_s) else {
-                continue;
-            };
-            let mount = self.mount_at(frame, scan.time_s)?;
-            odometry.push(base.compose(mount.pose).wrapped());
-            log.scans.push(turned(scan, mount.is_flipped));
-        }
-        let n_left_out = n_scans - odometry.len();
-        if odometry.is_empty() {
-            return Err(RecordError::Mismatch {
-                thing: "the odometry".to_owned(),
-                value: format!("at the time of no scan, of {n_scans}"),
-                limit: "it must cover the scans to 0.2 s".to_owned(),
-                hint: "--no-odometry takes the motion from the scans, or --odom-topic names \
-                       another source"
-                    .to_owned(),
-            });
-        }
-        if n_left_out > 0 {
-            log.warnings.push(format!(
-                "{n_left_out} of {n_scans} scans are left out: the odometry does not cover them"
-            ));
-        }
-        log.odometry = Some(odometry);
-        Ok(())
-    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Paths of several planners on one map, and strip charts along one path.
 
 use super::Figure;
-use formicar::collision::{Body, ObstacleMap};
+use formicar::collision::{Body, ClearanceAlong, ObstacleMap};
 use formicar::geometry::{Point2, Pose2};
 use formicar::map::OccupancyGrid;
 use formicar::path::CurvePath;
@@ -98,11 +98,12 @@ pub fn strips(caption: &str, map: &OccupancyGrid, vehicle: &Vehicle, path: &Curv
     let (obstacles, body) = (ObstacleMap::new(map), Body::new(vehicle));
     let spacing_m = SPACING_M.min(path.length_m() / MIN_PLACES).max(1e-3);
     let samples = path.sample(spacing_m);
+    let mut clearance = ClearanceAlong::new(&obstacles, &body);
     let points = samples.iter().map(|at| ProfilePoint {
         s_m: at.s_m,
         curvature_per_m: at.curvature_per_m,
         steer_rad: vehicle.steer_rad(at.curvature_per_m),
-        clearance_m: obstacles.clearance_m(&body, obstacles.frame().to_grid(at.pose)),
+        clearance_m: clearance.at_m(at.pose),
         direction: at.direction,
     });
     let picture = Picture {

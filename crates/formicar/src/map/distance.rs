@@ -2,6 +2,7 @@
 
 use super::distance_transform::{LANES, squared_distances};
 use super::{BitGrid, Cell, CellRegion};
+use std::ops::Range;
 use std::sync::OnceLock;
 
 /// Squared distances between cell centers, in cells, to the nearest obstacle cell.
@@ -59,7 +60,7 @@ impl DistanceField {
     }
 
     /// The cells whose distance may depend on a rectangle of obstacle cells.
-    pub fn reach(&self, changed: &CellRegion) -> CellRegion {
+    fn reach(&self, changed: &CellRegion) -> CellRegion {
         changed.grown(
             usize::from(self.truncation_cells),
             self.n_cols(),
@@ -76,7 +77,7 @@ impl DistanceField {
                 .copy_from_slice(obstacles.row(row));
         }
         let reach = self.reach(changed);
-        let tiles = |range: std::ops::Range<usize>| range.start / SIDE..range.end.div_ceil(SIDE);
+        let tiles = |range: Range<usize>| range.start / SIDE..range.end.div_ceil(SIDE);
         for tile_row in tiles(reach.rows()) {
             for tile_col in tiles(reach.cols()) {
                 self.refresh_tile((tile_col, tile_row), &reach);
@@ -90,7 +91,7 @@ impl DistanceField {
         let Some(tile) = self.tiles[place].get_mut() else {
             return;
         };
-        let within = |range: std::ops::Range<usize>, tile: usize| {
+        let within = |range: Range<usize>, tile: usize| {
             range.start.max(tile * SIDE)..range.end.min((tile + 1) * SIDE)
         };
         let (mut cols, rows) = (

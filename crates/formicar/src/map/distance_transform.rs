@@ -73,8 +73,8 @@ fn extend_runs(runs: &mut [i16], obstacles: &[u64], limit: i16) {
 /// The pass along one row.
 ///
 /// It works on nearness, truncation squared minus distance squared: the least is far away or off
-/// the map, and saturating subtraction does the truncation. Nearness is shifted to signed numbers,
-/// for which processors without vector extensions have a maximum.
+/// the map, and saturating subtraction does the truncation. Nearness is shifted to signed numbers:
+/// SSE2, which every x86-64 has, knows their maximum, and not that of unsigned ones.
 struct RowSweep {
     /// Nearness along the columns alone, far away beyond both ends of the row.
     near: Vec<i16>,

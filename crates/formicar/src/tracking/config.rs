@@ -1,6 +1,7 @@
 //! The configuration of a simulated drive: controller, speed, steps, start, and when to give up.
 
 use super::{Actuators, Controller, TrackingError};
+use crate::geometry::Pose2;
 use crate::parameters::{OutOfRange, parameters};
 use crate::vehicle::{Motion, Vehicle};
 use std::f64::consts::PI;
@@ -59,6 +60,13 @@ parameters! {
         /// Counter-clockwise, radians.
         #[range(-PI..=PI)]
         pub heading_rad: f64,
+    }
+}
+
+impl StartOffset {
+    /// Where a vehicle starts beside a path that begins at a pose.
+    pub(super) fn beside(&self, begin: Pose2) -> Pose2 {
+        begin.compose(Pose2::new(self.along_m, self.lateral_m, self.heading_rad))
     }
 }
 

@@ -16,6 +16,7 @@ mod document;
 mod errors;
 mod problem;
 mod pure_pursuit;
+mod record;
 mod simulate;
 mod stanley;
 mod stretch;

@@ -1,15 +1,14 @@
 //! The simulation: look, turn the wheels, roll a step.
 
 use super::controller::Controller;
-use super::errors::{Errors, Offset};
+use super::errors::Offset;
+use super::record::{DriveRecord, Ending, Sighting};
 use super::stretch::{Stretch, faced, stretches};
-use super::swept_area::swept_area_m2;
 use super::view::View;
-use super::{TracePoint, Tracking, TrackingConfig, TrackingError, TrackingStatus, TrackingSummary};
-use crate::geometry::{Pose2, angle_difference};
+use super::{Tracking, TrackingConfig, TrackingError, TrackingStatus};
+use crate::geometry::Pose2;
 use crate::path::{CurvePath, CurveSegment, Direction};
 use crate::vehicle::{AckermannAxles, BicycleInput, BicycleState, Vehicle};
-use std::mem;
 
 /// Most steps of a drive.
 const MAX_STEPS: u32 = 5_000_000;
@@ -62,23 +61,15 @@ pub fn track(
 
 /// A drive under way.
 struct Run {
-    config: TrackingConfig,
-    axles: AckermannAxles,
+    record: DriveRecord,
+    wheelbase_m: f64,
     max_steer_rad: f64,
     /// Length of a whole step, and driven length at which to give up.
     step_m: f64,
     give_up_m: f64,
     state: BicycleState,
     t_s: f64,
-    driven_m: f64,
     n_steps: u32,
-    n_gear_changes: usize,
-    saturated_m: f64,
-    most_steer_rad: f64,
-    errors: Errors,
-    driven: Vec<CurveSegment>,
-    trace: Vec<TracePoint>,
-    next_record_s: f64,
 }
 
 /// The stretch that is driven, and how far.
@@ -105,29 +96,23 @@ impl Run {
         if n_steps > limit {
             return Err(TrackingError::TooLong { n_steps, limit });
         }
-        let offset = config.start_offset;
-        let beside = Pose2::new(offset.along_m, offset.lateral_m, offset.heading_rad);
         Ok(Self {
-            axles,
+            wheelbase_m: axles.wheelbase_m,
             max_steer_rad: (axles.wheelbase_m * vehicle.max_curvature_per_m()).atan(),
             step_m,
             give_up_m,
             state: BicycleState {
-                pose: path.start().compose(beside),
+                pose: config.start_offset.beside(path.start()),
                 ..BicycleState::default()
             },
-            config,
             t_s: 0.0,
-            driven_m: 0.0,
             n_steps: 0,
-            n_gear_changes: 0,
-            saturated_m: 0.0,
-            most_steer_rad: 0.0,
-            errors: Errors::default(),
-            driven: Vec::new(),
-            trace: Vec::new(),
-            next_record_s: 0.0,
+            record: DriveRecord::new(axles, config),
         })
+    }
+
+    fn config(&self) -> &TrackingConfig {
+        self.record.config()
     }
 
     fn drive(&mut self, path: &CurvePath, stretches: &[Stretch]) -> TrackingStatus {
@@ -136,7 +121,7 @@ impl Run {
         }
         let mut begin_m = 0.0;
         for (i, stretch) in stretches.iter().enumerate() {
-            self.n_gear_changes = i;
+            self.record.n_gear_changes = i;
             let mut leg = Leg {
                 stretch,
                 begin_m,
@@ -144,15 +129,15 @@ impl Run {
                 offset: Offset::new(stretch, self.state.pose, 0.0),
             };
             if i == 0 {
-                self.errors.add(&leg.offset, 0.0);
-                self.record(&leg);
+                self.record.measure(&leg.offset, 0.0, false);
+                self.note(&leg);
             }
             self.turn_standing(&leg);
             if let Err(status) = self.follow(&mut leg) {
-                self.record(&leg);
+                self.note(&leg);
                 return status;
             }
-            self.record(&leg);
+            self.note(&leg);
             begin_m += stretch.length_m();
         }
         TrackingStatus::Arrived
@@ -161,35 +146,34 @@ impl Run {
     /// The only point of a path without length.
     fn stand(&mut self, on_path: Pose2) {
         let offset = Offset::beside(on_path, self.state.pose);
-        self.errors.add(&offset, 0.0);
-        self.push(Direction::Forward, 0.0, &offset);
+        self.record.measure(&offset, 0.0, false);
+        self.note_beside(Direction::Forward, 0.0, &offset);
     }
 
     /// Turns the wheels to what the controller asks for first.
     fn turn_standing(&mut self, leg: &Leg) {
         let before_rad = self.state.steer_rad;
         self.turn_wheels(leg, f64::INFINITY);
-        if let Some(rate) = self.config.max_steer_rate_rad_per_s {
+        if let Some(rate) = self.config().max_steer_rate_rad_per_s {
             self.t_s += (self.state.steer_rad - before_rad).abs() / rate;
         }
-        self.record(leg);
+        self.note(leg);
     }
 
     fn follow(&mut self, leg: &mut Leg) -> Result<(), TrackingStatus> {
         while let Some(length_m) = self.step_length_m(leg) {
-            let is_saturated = self.turn_wheels(leg, length_m / self.config.speed());
-            self.saturated_m += if is_saturated { length_m } else { 0.0 };
+            let is_saturated = self.turn_wheels(leg, length_m / self.config().speed());
             self.roll(leg.stretch.direction, length_m);
             leg.driven_m += length_m;
             leg.offset = Offset::new(leg.stretch, self.state.pose, leg.offset.foot_m);
-            self.errors.add(&leg.offset, length_m);
-            if self.t_s >= self.next_record_s {
-                self.record(leg);
+            self.record.measure(&leg.offset, length_m, is_saturated);
+            if self.record.is_due(self.t_s) {
+                self.note(leg);
             }
-            if leg.offset.cross_track_m.abs() > self.config.give_up_error_m {
+            if leg.offset.cross_track_m.abs() > self.config().give_up_error_m {
                 return Err(TrackingStatus::LeftPath);
             }
-            if self.driven_m > self.give_up_m || self.n_steps > 2 * MAX_STEPS {
+            if self.record.driven_m > self.give_up_m || self.n_steps > 2 * MAX_STEPS {
                 return Err(TrackingStatus::GaveUp);
             }
         }
@@ -200,7 +184,7 @@ impl Run {
     /// end is where the driven length says, and a step ends where the path's steering changes.
     fn step_length_m(&self, leg: &Leg) -> Option<f64> {
         let length_m = leg.stretch.length_m();
-        let [left_m, to_joint_m, least_m] = if self.config.controller == Controller::OpenLoop {
+        let [left_m, to_joint_m, least_m] = if self.config().controller == Controller::OpenLoop {
             let joint_m = leg.stretch.next_joint_m(leg.driven_m);
             [length_m - leg.driven_m, joint_m - leg.driven_m, 0.0]
         } else {
@@ -214,18 +198,18 @@ impl Run {
     /// time; returns whether it asked for more than the limit.
     fn turn_wheels(&mut self, leg: &Leg, duration_s: f64) -> bool {
         let direction = leg.stretch.direction;
-        let asked_rad = self.config.controller.steer_rad(&View {
+        let asked_rad = self.config().controller.steer_rad(&View {
             stretch: leg.stretch,
             driven_m: leg.driven_m,
             foot_m: leg.offset.foot_m,
             pose: faced(self.state.pose, direction),
-            wheelbase_m: self.axles.wheelbase_m,
-            speed_mps: self.config.speed(),
+            wheelbase_m: self.wheelbase_m,
+            speed_mps: self.config().speed(),
         });
         let limit = self.max_steer_rad;
         let asked = direction.sign() * asked_rad;
         let now = self.state.steer_rad;
-        let rate = self.config.max_steer_rate_rad_per_s;
+        let rate = self.config().max_steer_rate_rad_per_s;
         let most = rate.map_or(f64::INFINITY, |rate| rate * duration_s);
         self.state.steer_rad = asked.clamp(-limit, limit).clamp(now - most, now + most);
         asked.abs() > limit * (1.0 + SATURATED)
@@ -233,27 +217,26 @@ impl Run {
 
     fn roll(&mut self, direction: Direction, length_m: f64) {
         let start = self.state.pose;
-        self.state.speed_mps = direction.sign() * self.config.speed();
-        let duration_s = length_m / self.config.speed();
+        self.state.speed_mps = direction.sign() * self.config().speed();
+        let duration_s = length_m / self.config().speed();
         self.state = self
             .state
-            .step(self.axles.wheelbase_m, BicycleInput::default(), duration_s);
+            .step(self.wheelbase_m, BicycleInput::default(), duration_s);
         self.lengthen(CurveSegment {
             start,
-            curvature_per_m: self.state.steer_rad.tan() / self.axles.wheelbase_m,
+            curvature_per_m: self.state.steer_rad.tan() / self.wheelbase_m,
             curvature_rate_per_m2: 0.0,
             length_m,
             direction,
         });
         self.t_s += duration_s;
-        self.driven_m += length_m;
         self.n_steps += 1;
-        self.most_steer_rad = self.most_steer_rad.max(self.state.steer_rad.abs());
+        self.record.roll(length_m, self.state.steer_rad);
     }
 
     /// Adds what was driven: wheels that are held over several steps drive one arc.
     fn lengthen(&mut self, step: CurveSegment) {
-        if let Some(last) = self.driven.last_mut() {
+        if let Some(last) = self.record.driven.last_mut() {
             let longer = CurveSegment {
                 length_m: last.length_m + step.length_m,
                 ..*last
@@ -266,80 +249,36 @@ impl Run {
                 return;
             }
         }
-        self.driven.push(step);
+        self.record.driven.push(step);
     }
 
-    fn record(&mut self, leg: &Leg) {
+    fn note(&mut self, leg: &Leg) {
         let on_stretch_m = leg.offset.foot_m.clamp(0.0, leg.stretch.length_m());
         let s_m = leg.begin_m + on_stretch_m;
-        self.push(leg.stretch.direction, s_m, &leg.offset);
+        self.note_beside(leg.stretch.direction, s_m, &leg.offset);
     }
 
-    fn push(&mut self, direction: Direction, s_m: f64, offset: &Offset) {
-        let (left_wheel_rad, right_wheel_rad) = self.axles.front_wheel_angles(self.state.steer_rad);
-        let point = TracePoint {
+    fn note_beside(&mut self, direction: Direction, s_m: f64, offset: &Offset) {
+        let step_s = self.config().time_step_s;
+        self.record.note(&Sighting {
             t_s: self.t_s,
-            driven_m: self.driven_m,
-            s_m,
-            pose: self.state.pose.wrapped(),
-            direction,
-            steer_rad: self.state.steer_rad,
-            left_wheel_rad,
-            right_wheel_rad,
-            cross_track_error_m: offset.cross_track_m,
-            heading_error_rad: offset.heading_rad,
+            state: &self.state,
             speed_mps: None,
-        };
-        if self.trace.last() != Some(&point) {
-            self.trace.push(point);
-        }
-        // The step that ends nearest to the interval, whichever way the sum of steps is rounded.
-        let TrackingConfig {
-            record_interval_s,
-            time_step_s,
-            ..
-        } = self.config;
-        self.next_record_s = self.t_s + record_interval_s - 0.5 * time_step_s;
+            direction,
+            s_m,
+            offset,
+            step_s,
+        });
     }
 
-    fn conclude(mut self, path: &CurvePath, vehicle: &Vehicle, status: TrackingStatus) -> Tracking {
-        let first = self.driven.first().map_or(self.state.pose, |s| s.start);
-        let driven = CurvePath::from_segments(first, mem::take(&mut self.driven));
-        Tracking {
+    fn conclude(self, path: &CurvePath, vehicle: &Vehicle, status: TrackingStatus) -> Tracking {
+        let end = Ending {
             status,
-            summary: self.summary(path, swept_area_m2(vehicle, &driven)),
-            trace: self.trace,
-            driven,
-            config: self.config,
-        }
-    }
-
-    fn summary(&self, path: &CurvePath, swept_area_m2: f64) -> TrackingSummary {
-        let (last, goal) = (self.state.pose, path.end());
-        let (rms_cross_track_error_m, rms_heading_error_rad) = self.errors.rms();
-        let (left, right) = self.axles.front_wheel_angles(self.most_steer_rad);
-        let share = |part_m: f64| {
-            if self.driven_m > 0.0 {
-                part_m / self.driven_m
-            } else {
-                0.0
-            }
-        };
-        TrackingSummary {
-            duration_s: self.t_s,
-            driven_m: self.driven_m,
-            n_gear_changes: self.n_gear_changes,
-            max_cross_track_error_m: self.errors.max_cross_track_m,
-            rms_cross_track_error_m,
-            max_heading_error_rad: self.errors.max_heading_rad,
-            rms_heading_error_rad,
-            goal_error_m: last.position().distance(goal.position()),
-            goal_error_rad: angle_difference(last.heading, goal.heading).abs(),
-            max_steer_rad: self.most_steer_rad,
-            max_wheel_rad: left.abs().max(right.abs()),
-            steering_saturated_share: share(self.saturated_m),
-            swept_area_m2,
+            t_s: self.t_s,
+            pose: self.state.pose,
+            goal: path.end(),
             n_controller_failures: 0,
-        }
+        };
+        self.record.conclude(vehicle, &end)
     }
 }

@@ -1,8 +1,10 @@
 //! What a controller sees, and what it asks for.
 
+use super::actuators::Actuators;
 use crate::path::{Direction, TimedPath};
+use crate::tracking::TrackingError;
 use crate::tracking::stretch::Stretch;
-use crate::vehicle::BicycleState;
+use crate::vehicle::{BicycleState, Motion, Vehicle};
 
 /// Steers and drives a vehicle along a timed path.
 ///
@@ -47,6 +49,46 @@ pub struct DriveLimits {
     pub delay_s: f64,
     /// Time between two commands, seconds.
     pub control_period_s: f64,
+}
+
+/// Acceleration of a vehicle that names none, m/s^2.
+const USUAL_ACCELERATION_MPS2: f64 = 1.0;
+/// Brakes without a limit of their own are stronger than the motor by this.
+const BRAKING_RATIO: f64 = 2.0;
+
+impl DriveLimits {
+    /// What a vehicle can do with its actuators; what these leave out is as the vehicle says.
+    ///
+    /// # Errors
+    /// A vehicle that does not steer or whose wheelbase is unknown, or an actuator out of its
+    /// range.
+    pub fn of(
+        vehicle: &Vehicle,
+        actuators: &Actuators,
+        steer_rate_rad_per_s: Option<f64>,
+    ) -> Result<Self, TrackingError> {
+        actuators.check()?;
+        if vehicle.motion() == Motion::Point {
+            return Err(TrackingError::NeedsACar);
+        }
+        let wheelbase_m = vehicle.wheelbase_m();
+        let wheelbase_m = wheelbase_m.ok_or(TrackingError::NeedsAWheelbase)?;
+        let of_vehicle = vehicle.parameters();
+        let acceleration_mps2 = actuators.max_acceleration_mps2;
+        let acceleration_mps2 = acceleration_mps2.or(of_vehicle.max_acceleration_mps2);
+        let acceleration_mps2 = acceleration_mps2.unwrap_or(USUAL_ACCELERATION_MPS2);
+        let braking_mps2 = actuators.max_braking_mps2;
+        let rate = steer_rate_rad_per_s.or(of_vehicle.max_steer_rate_rad_per_s);
+        Ok(Self {
+            wheelbase_m,
+            max_steer_rad: (wheelbase_m * vehicle.max_curvature_per_m()).atan(),
+            steer_rate_rad_per_s: rate.unwrap_or(f64::INFINITY),
+            acceleration_mps2,
+            braking_mps2: braking_mps2.unwrap_or(BRAKING_RATIO * acceleration_mps2),
+            delay_s: actuators.delay_s,
+            control_period_s: actuators.control_period_s,
+        })
+    }
 }
 
 /// A moment of a drive.

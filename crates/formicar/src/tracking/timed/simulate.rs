@@ -3,18 +3,13 @@
 use super::actuated::ActuatedVehicle;
 use super::controller::{DriveController, DriveLimits, DriveMoment};
 use super::laws::Scheduled;
-use crate::collision::{Body, Drive, ObstacleMap};
-use crate::geometry::{Pose2, angle_difference};
-use crate::path::{CurvePath, CurveSegment, Direction, TimedPath};
-use crate::tracking::errors::{Errors, Offset};
+use crate::collision::{Body, ClearanceAlong, Drive, ObstacleMap};
+use crate::path::{CurveSegment, Direction, TimedPath};
+use crate::tracking::errors::Offset;
+use crate::tracking::record::{DriveRecord, Ending, Sighting};
 use crate::tracking::stretch::{Stretch, stretches};
-use crate::tracking::swept_area::swept_area_m2;
-use crate::tracking::{
-    Controller, TracePoint, Tracking, TrackingConfig, TrackingError, TrackingStatus,
-    TrackingSummary,
-};
+use crate::tracking::{Controller, Tracking, TrackingConfig, TrackingError, TrackingStatus};
 use crate::vehicle::{AckermannAxles, BicycleState, Vehicle};
-use std::mem;
 
 /// Steps of the simulation in a control period.
 const N_SUBSTEPS: u32 = 4;
@@ -29,11 +24,6 @@ const GIVE_UP_RATIO: f64 = 2.0;
 const GIVE_UP_S: f64 = 20.0;
 /// Most control periods of a drive.
 const MAX_PERIODS: f64 = 2e6;
-/// Acceleration of a vehicle that names none, m/s^2.
-const USUAL_ACCELERATION_MPS2: f64 = 1.0;
-/// Brakes without a limit of their own are stronger than the motor by this.
-const BRAKING_RATIO: f64 = 2.0;
-
 /// Drives a vehicle along a timed path by the controller of a configuration.
 ///
 /// Unlike [`track`](crate::tracking::track), the speed changes: the drive begins standing, commands
@@ -81,27 +71,19 @@ pub fn track_by(
         let limit = MAX_PERIODS;
         return Err(TrackingError::TooLong { n_steps, limit });
     }
-    let eyes = obstacles.map(|obstacles| (obstacles, Body::new(vehicle)));
+    let body = Body::new(vehicle);
+    let eyes = obstacles.map(|obstacles| ClearanceAlong::new(obstacles, &body));
     let mut run = Run::new(timed, vehicle, config)?;
-    let status = run.drive(&stretches, eyes.as_ref(), controller);
+    let status = run.drive(&stretches, eyes, controller);
     Ok(run.conclude(vehicle, status, controller.n_failures()))
 }
 
 /// A drive under way.
 struct Run<'a> {
     timed: &'a TimedPath,
-    config: TrackingConfig,
-    axles: AckermannAxles,
+    record: DriveRecord,
     vehicle: ActuatedVehicle,
-    driven_m: f64,
-    n_gear_changes: usize,
-    saturated_m: f64,
-    most_steer_rad: f64,
     stands_since_s: f64,
-    errors: Errors,
-    driven: Vec<CurveSegment>,
-    trace: Vec<TracePoint>,
-    next_record_s: f64,
 }
 
 /// The stretch that is driven.
@@ -131,53 +113,30 @@ impl<'a> Run<'a> {
         config: TrackingConfig,
     ) -> Result<Self, TrackingError> {
         let axles = AckermannAxles::of(vehicle).ok_or(TrackingError::NeedsAWheelbase)?;
-        let of_vehicle = vehicle.parameters().max_acceleration_mps2;
-        let acceleration_mps2 = config.actuators.max_acceleration_mps2.or(of_vehicle);
-        let acceleration_mps2 = acceleration_mps2.unwrap_or(USUAL_ACCELERATION_MPS2);
-        let braking_mps2 = config.actuators.max_braking_mps2;
         let rate = config.max_steer_rate_rad_per_s;
-        let offset = config.start_offset;
-        let beside = Pose2::new(offset.along_m, offset.lateral_m, offset.heading_rad);
-        let limits = DriveLimits {
-            wheelbase_m: axles.wheelbase_m,
-            max_steer_rad: (axles.wheelbase_m * vehicle.max_curvature_per_m()).atan(),
-            steer_rate_rad_per_s: rate.unwrap_or(f64::INFINITY),
-            acceleration_mps2,
-            braking_mps2: braking_mps2.unwrap_or(BRAKING_RATIO * acceleration_mps2),
-            delay_s: config.actuators.delay_s,
-            control_period_s: config.actuators.control_period_s,
-        };
+        let limits = DriveLimits::of(vehicle, &config.actuators, rate)?;
         let start = BicycleState {
-            pose: timed.path().start().compose(beside),
+            pose: config.start_offset.beside(timed.path().start()),
             ..BicycleState::default()
         };
         Ok(Self {
-            axles,
             vehicle: ActuatedVehicle::new(limits, start),
             timed,
-            config,
-            driven_m: 0.0,
-            n_gear_changes: 0,
-            saturated_m: 0.0,
-            most_steer_rad: 0.0,
+            record: DriveRecord::new(axles, config),
             stands_since_s: 0.0,
-            errors: Errors::default(),
-            driven: Vec::new(),
-            trace: Vec::new(),
-            next_record_s: 0.0,
         })
     }
 
     fn drive(
         &mut self,
         stretches: &[Stretch],
-        eyes: Option<&(&ObstacleMap, Body)>,
+        mut eyes: Option<ClearanceAlong>,
         controller: &mut dyn DriveController,
     ) -> TrackingStatus {
         let Some(first) = stretches.first() else {
             let offset = Offset::beside(self.timed.path().start(), self.vehicle.state().pose);
-            self.errors.add(&offset, 0.0);
-            self.push(Direction::Forward, 0.0, &offset);
+            self.record.measure(&offset, 0.0, false);
+            self.note_beside(Direction::Forward, 0.0, &offset);
             return TrackingStatus::Arrived;
         };
         let mut leg = Leg {
@@ -188,35 +147,36 @@ impl<'a> Run<'a> {
         };
         // The wheels point along the path before the drive begins.
         let curvature_per_m = first.direction.sign() * first.curvature_at(0.0);
+        let wheelbase_m = self.vehicle.limits().wheelbase_m;
         self.vehicle
-            .turn_wheels((self.axles.wheelbase_m * curvature_per_m).atan());
-        self.errors.add(&leg.offset, 0.0);
-        self.record(&leg);
+            .turn_wheels((wheelbase_m * curvature_per_m).atan());
+        self.record.measure(&leg.offset, 0.0, false);
+        self.note(&leg);
         let mut at = 0;
         loop {
-            self.look(&leg, eyes, controller);
+            self.look(&leg, eyes.as_mut(), controller);
             for _ in 0..N_SUBSTEPS {
                 self.step(&mut leg);
             }
-            if self.vehicle.t_s() >= self.next_record_s {
-                self.record(&leg);
+            if self.record.is_due(self.vehicle.t_s()) {
+                self.note(&leg);
             }
             if let Some(status) = self.ending(&leg, at + 1 == stretches.len()) {
-                self.record(&leg);
+                self.note(&leg);
                 return status;
             }
             if self.is_at_end(&leg) && at + 1 < stretches.len() {
                 let begin_m = leg.begin_m + leg.stretch.length_m();
                 at += 1;
-                self.n_gear_changes = at;
+                self.record.n_gear_changes = at;
                 self.stands_since_s = self.vehicle.t_s();
                 leg = Leg {
                     stretch: &stretches[at],
                     begin_m,
-                    driven_before_m: self.driven_m,
+                    driven_before_m: self.record.driven_m,
                     offset: Offset::new(&stretches[at], self.vehicle.state().pose, 0.0),
                 };
-                self.record(&leg);
+                self.note(&leg);
             }
         }
     }
@@ -224,12 +184,11 @@ impl<'a> Run<'a> {
     fn look(
         &mut self,
         leg: &Leg,
-        eyes: Option<&(&ObstacleMap, Body)>,
+        eyes: Option<&mut ClearanceAlong>,
         controller: &mut dyn DriveController,
     ) {
-        let clearance_m = eyes.map_or(f64::INFINITY, |(obstacles, body)| {
-            obstacles.clearance_m(body, obstacles.frame().to_grid(self.vehicle.state().pose))
-        });
+        let pose = self.vehicle.state().pose;
+        let clearance_m = eyes.map_or(f64::INFINITY, |eyes| eyes.at_m(pose));
         let pending = self.vehicle.pending();
         let command = controller.command(&DriveMoment {
             t_s: self.vehicle.t_s(),
@@ -243,7 +202,7 @@ impl<'a> Run<'a> {
             limits: *self.vehicle.limits(),
             stretch: leg.stretch,
             foot_m: leg.offset.foot_m,
-            driven_m: self.driven_m - leg.driven_before_m,
+            driven_m: self.record.driven_m - leg.driven_before_m,
         });
         self.vehicle.give(command);
     }
@@ -261,11 +220,10 @@ impl<'a> Run<'a> {
             self.stands_since_s = self.vehicle.t_s();
         }
         leg.offset = Offset::new(leg.stretch, state.pose, leg.offset.foot_m);
-        self.errors.add(&leg.offset, signed_m.abs());
         let asked_rad = self.vehicle.command().steer_rad.abs();
-        if asked_rad > limits.max_steer_rad * 1.01 {
-            self.saturated_m += signed_m.abs();
-        }
+        let is_saturated = asked_rad > limits.max_steer_rad * 1.01;
+        self.record
+            .measure(&leg.offset, signed_m.abs(), is_saturated);
     }
 
     fn roll(&mut self, drive: &Drive) {
@@ -274,21 +232,20 @@ impl<'a> Run<'a> {
             return;
         }
         let (start, curvature_per_m) = (drive.start, drive.curvature_per_m);
-        self.driven_m += signed_m.abs();
         let steer_rad = self.vehicle.state().steer_rad;
-        self.most_steer_rad = self.most_steer_rad.max(steer_rad.abs());
+        self.record.roll(signed_m.abs(), steer_rad);
         let direction = if signed_m > 0.0 {
             Direction::Forward
         } else {
             Direction::Reverse
         };
-        match self.driven.last_mut() {
+        match self.record.driven.last_mut() {
             Some(last)
                 if last.curvature_per_m == curvature_per_m && last.direction == direction =>
             {
                 last.length_m += signed_m.abs();
             }
-            _ => self.driven.push(CurveSegment {
+            _ => self.record.driven.push(CurveSegment {
                 start,
                 curvature_per_m,
                 curvature_rate_per_m2: 0.0,
@@ -317,81 +274,43 @@ impl<'a> Run<'a> {
         if ends_here && is_over && stands && (is_there || self.is_late_and_stands()) {
             return Some(TrackingStatus::Arrived);
         }
-        if leg.offset.cross_track_m.abs() > self.config.give_up_error_m {
+        if leg.offset.cross_track_m.abs() > self.record.config().give_up_error_m {
             return Some(TrackingStatus::LeftPath);
         }
         let is_long = self.vehicle.t_s() > GIVE_UP_RATIO * end.t_s + GIVE_UP_S;
         is_long.then_some(TrackingStatus::GaveUp)
     }
 
-    fn record(&mut self, leg: &Leg) {
-        self.push(leg.stretch.direction, leg.s_m(), &leg.offset);
+    fn note(&mut self, leg: &Leg) {
+        self.note_beside(leg.stretch.direction, leg.s_m(), &leg.offset);
     }
 
-    fn push(&mut self, direction: Direction, s_m: f64, offset: &Offset) {
-        let (left_wheel_rad, right_wheel_rad) = self
-            .axles
-            .front_wheel_angles(self.vehicle.state().steer_rad);
-        let point = TracePoint {
+    fn note_beside(&mut self, direction: Direction, s_m: f64, offset: &Offset) {
+        let state = self.vehicle.state();
+        self.record.note(&Sighting {
             t_s: self.vehicle.t_s(),
-            driven_m: self.driven_m,
-            s_m,
-            pose: self.vehicle.state().pose.wrapped(),
+            state: &state,
+            speed_mps: Some(state.speed_mps),
             direction,
-            steer_rad: self.vehicle.state().steer_rad,
-            left_wheel_rad,
-            right_wheel_rad,
-            cross_track_error_m: offset.cross_track_m,
-            heading_error_rad: offset.heading_rad,
-            speed_mps: Some(self.vehicle.state().speed_mps),
-        };
-        if self.trace.last() != Some(&point) {
-            self.trace.push(point);
-        }
-        let half_s = 0.5 * self.vehicle.limits().control_period_s;
-        self.next_record_s = self.vehicle.t_s() + self.config.record_interval_s - half_s;
+            s_m,
+            offset,
+            step_s: self.vehicle.limits().control_period_s,
+        });
     }
 
     fn conclude(
-        mut self,
+        self,
         vehicle: &Vehicle,
         status: TrackingStatus,
         n_controller_failures: usize,
     ) -> Tracking {
-        let first = self
-            .driven
-            .first()
-            .map_or(self.vehicle.state().pose, |s| s.start);
-        let driven = CurvePath::from_segments(first, mem::take(&mut self.driven));
-        let (last, goal) = (self.vehicle.state().pose, self.timed.path().end());
-        let (rms_cross_track_error_m, rms_heading_error_rad) = self.errors.rms();
-        let (left, right) = self.axles.front_wheel_angles(self.most_steer_rad);
-        let share = if self.driven_m > 0.0 {
-            self.saturated_m / self.driven_m
-        } else {
-            0.0
-        };
-        Tracking {
+        let end = Ending {
             status,
-            summary: TrackingSummary {
-                duration_s: self.vehicle.t_s(),
-                driven_m: self.driven_m,
-                n_gear_changes: self.n_gear_changes,
-                max_cross_track_error_m: self.errors.max_cross_track_m,
-                rms_cross_track_error_m,
-                max_heading_error_rad: self.errors.max_heading_rad,
-                rms_heading_error_rad,
-                goal_error_m: last.position().distance(goal.position()),
-                goal_error_rad: angle_difference(last.heading, goal.heading).abs(),
-                max_steer_rad: self.most_steer_rad,
-                max_wheel_rad: left.abs().max(right.abs()),
-                steering_saturated_share: share,
-                swept_area_m2: swept_area_m2(vehicle, &driven),
-                n_controller_failures,
-            },
-            trace: self.trace,
-            driven,
-            config: self.config,
-        }
+            t_s: self.vehicle.t_s(),
+            pose: self.vehicle.state().pose,
+            goal: self.timed.path().end(),
+            n_controller_failures,
+        };
+        self.record.conclude(vehicle, &end)
     }
 }
