@@ -3,19 +3,13 @@
 use crate::record::{DrivePoint, DriveRecord};
 use crate::solid::Solid;
 use formicar::path::{CurvePath, CurveSegment, Direction};
-use formicar::render::{
-    Axis, Chart, Color, Dash, LineStyle, Picture, PoseMark, Scene, Series, palette,
-};
+use formicar::render::{Axis, Chart, Picture, PoseMark, Scene, Series, palette};
 use formicar::{OccupancyGrid, Point2, Pose2, Vehicle};
 
 /// Most outlines of agents in a still picture, per agent.
 const MAX_GHOSTS: usize = 6;
 /// Most frames of a film.
 const MAX_FRAMES: usize = 150;
-/// Corners of a disc that is drawn as a polygon.
-const N_CORNERS: u32 = 20;
-/// The color of agents.
-const AGENT: Color = palette::GOAL;
 
 /// All that the picture of a drive is made from.
 #[derive(Clone, Copy, Debug)]
@@ -43,7 +37,7 @@ pub fn drive_picture(of: &DriveView) -> Picture {
     scene.swept(&driven, of.vehicle).curve(&driven);
     let step = trace.len().div_ceil(MAX_GHOSTS).max(1);
     for point in trace.iter().step_by(step) {
-        draw_agents(&mut scene, of, point, 1.0);
+        draw_agents(&mut scene, of, point, |_| "");
     }
     draw_ends(&mut scene, of);
     for contact in &of.record.contacts {
@@ -76,15 +70,14 @@ fn frame(of: &DriveView, trace: &[DrivePoint]) -> Picture {
     let mut scene = ground(of);
     scene.curve(&driven(trace));
     if let Some(now) = trace.last() {
-        draw_agents(&mut scene, of, now, 2.0);
-        draw_agent_labels(&mut scene, of, now);
-        scene.pose(now.pose, of.vehicle, PoseMark::Start);
+        draw_agents(&mut scene, of, now, |name| name);
+        scene.vehicle_at(now.pose, of.vehicle, "");
     }
     scene.pose(of.record.goal, of.vehicle, PoseMark::Goal);
     let now = trace.last().map_or((0.0, 0.0), |p| (p.t_s, p.speed_mps));
     Picture {
         title: of.title.to_owned(),
-        caption: format!("{:5.1} s   {:+.2} m/s", now.0, now.1),
+        caption: format!("{:.1} s, {:.2} m/s", now.0, now.1),
         scene: Some(scene),
         ..Picture::default()
     }
@@ -93,7 +86,7 @@ fn frame(of: &DriveView, trace: &[DrivePoint]) -> Picture {
 fn ground(of: &DriveView) -> Scene {
     let mut scene = Scene::new(of.map);
     for solid in of.solids {
-        outline(&mut scene, solid, palette::OBSTACLE, 2.5);
+        scene.ghost(solid.corners(), solid.radius_m(), palette::OBSTACLE, "");
     }
     scene
 }
@@ -103,38 +96,12 @@ fn draw_ends(scene: &mut Scene, of: &DriveView) {
     scene.pose(of.record.goal, of.vehicle, PoseMark::Goal);
 }
 
-fn draw_agents(scene: &mut Scene, of: &DriveView, at: &DrivePoint, width_px: f64) {
+fn draw_agents(scene: &mut Scene, of: &DriveView, at: &DrivePoint, label: fn(&str) -> &str) {
     for (agent, &[x, y, heading]) in of.record.agents.iter().zip(&at.agents) {
         let solid = Solid::placed(&agent.shape, Pose2::new(x, y, heading));
-        outline(scene, &solid, AGENT, width_px);
+        let name = agent.name.as_deref().unwrap_or_default();
+        scene.moving_obstacle(solid.corners(), solid.radius_m(), label(name));
     }
-}
-
-fn draw_agent_labels(scene: &mut Scene, of: &DriveView, at: &DrivePoint) {
-    for (agent, &[x, y, _]) in of.record.agents.iter().zip(&at.agents) {
-        if let Some(name) = &agent.name {
-            scene.point(Point2::new(x, y), name);
-        }
-    }
-}
-
-fn outline(scene: &mut Scene, solid: &Solid, color: Color, width_px: f64) {
-    let mut corners: Vec<Point2> = match solid.corners() {
-        [center] => {
-            let turn = |i: u32| std::f64::consts::TAU * f64::from(i) / f64::from(N_CORNERS);
-            let corner = |i| *center + Point2::unit(turn(i)) * solid.radius_m();
-            (0..N_CORNERS).map(corner).collect()
-        }
-        corners => corners.to_vec(),
-    };
-    corners.extend(corners.first().copied());
-    let style = LineStyle {
-        label: String::new(),
-        color,
-        width_px,
-        dash: Dash::Solid,
-    };
-    scene.polyline(&corners, &style);
 }
 
 /// The trace as a path of arcs between its points.

@@ -115,13 +115,37 @@ impl Scene {
         self
     }
 
-    /// The outline of something at a moment, grown by a radius, with a label beside it.
-    pub(super) fn ghost(&mut self, corners: &[Point2], radius_m: f64, color: Color, label: &str) {
+    /// What moves, at a moment: a polygon, or a disc about one point, with a label beside it.
+    pub fn moving_obstacle(&mut self, corners: &[Point2], radius_m: f64, label: &str) -> &mut Self {
+        let swatch = Swatch::Area(palette::LIMIT);
+        self.legend.add("moving obstacle", swatch);
+        self.ghost(corners, radius_m, palette::LIMIT, label)
+    }
+
+    /// The vehicle at a moment, with a label beside it.
+    pub fn vehicle_at(&mut self, pose: Pose2, vehicle: &Vehicle, label: &str) -> &mut Self {
+        let swatch = Swatch::Area(palette::FORWARD);
+        self.legend.add("vehicle at a time", swatch);
+        for part in vehicle.parts() {
+            let corners = part.placed(pose);
+            self.ghost(corners.corners(), 0.0, palette::FORWARD, label);
+        }
+        self
+    }
+
+    /// A shaded polygon, or a disc about one point, with a label beside it.
+    pub fn ghost(
+        &mut self,
+        corners: &[Point2],
+        radius_m: f64,
+        color: Color,
+        label: &str,
+    ) -> &mut Self {
         let px: Vec<_> = corners.iter().map(|&p| self.view.to_px(p)).collect();
         let middle = px.iter().fold(Point2::default(), |sum, &p| sum + p);
         let middle = middle * (1.0 / px.len().max(1) as f64);
         if px.is_empty() || !self.view.shows(middle) {
-            return;
+            return self;
         }
         let radius_px = radius_m * self.view.px_per_m();
         let shape = if let [center] = px[..] {
@@ -141,6 +165,7 @@ impl Scene {
                 .fold(radius_px, f64::max);
             self.labels.name(middle, 0.5 * reach_px, label, color);
         }
+        self
     }
 
     /// A point with its name beside it.

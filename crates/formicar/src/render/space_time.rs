@@ -1,7 +1,6 @@
 //! Pictures of a drive in time: arc length over time, and vehicles and obstacles as ghosts.
 
 use super::chart::{Axis, Chart, Limit, Ribbon, Series};
-use super::legend::Swatch;
 use super::{Picture, Scene, palette};
 use crate::geometry::Point2;
 use crate::motion::{MotionPlan, Region};
@@ -112,12 +111,6 @@ impl Scene {
         predictions: &Predictions,
         vehicle: &Vehicle,
     ) -> &mut Self {
-        if !predictions.obstacles().is_empty() {
-            self.legend
-                .add("moving obstacle", Swatch::Area(palette::LIMIT));
-        }
-        self.legend
-            .add("vehicle at a time", Swatch::Area(palette::FORWARD));
         let end_s = shown_s(timed, predictions);
         let step_s = nice_step_s(end_s / MAX_GHOSTS);
         let n_ghosts = (end_s / step_s).floor() as usize;
@@ -129,30 +122,18 @@ impl Scene {
                 // One that stands is drawn and named once.
                 if before != Some(obstacle.pose_at(t_s)) {
                     let (corners, radius_m) = (obstacle.corners_at(t_s), obstacle.radius_at(t_s));
-                    self.ghost(&corners, radius_m, palette::LIMIT, &format!("{t_s} s"));
+                    self.moving_obstacle(&corners, radius_m, &format!("{t_s} s"));
                 }
             }
             let stands =
                 before_s.is_some_and(|before_s| timed.at(t_s).s_m == timed.at(before_s).s_m);
             if !stands {
-                self.ghost_vehicle(timed, t_s, vehicle);
+                // At the beginning its mark as a start names it.
+                let label = before_s.map_or_else(String::new, |_| format!("{t_s} s"));
+                self.vehicle_at(timed.pose_at(t_s), vehicle, &label);
             }
         }
         self
-    }
-
-    /// The vehicle at a time; at the beginning its mark as a start names it.
-    fn ghost_vehicle(&mut self, timed: &TimedPath, t_s: f64, vehicle: &Vehicle) {
-        let pose = timed.pose_at(t_s);
-        let label = if t_s > 0.0 {
-            format!("{t_s} s")
-        } else {
-            String::new()
-        };
-        for part in vehicle.parts() {
-            let corners = part.placed(pose);
-            self.ghost(corners.corners(), 0.0, palette::FORWARD, &label);
-        }
     }
 }
 

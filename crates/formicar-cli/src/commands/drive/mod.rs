@@ -103,7 +103,8 @@ fn write_picture(scene: &Scene, record: &DriveRecord, target: &Target<PictureKin
 }
 
 fn write_film(scene: &Scene, record: &DriveRecord, target: &Target<()>) -> Result<()> {
-    let texts = texts(scene, record);
+    // How the drive ends, no frame but the last can know.
+    let texts = [scene.record.name.clone(), String::new()];
     let frames = drive_film(&view(scene, record, &texts));
     target.write(&to_gif(&frames, FILM_WIDTH_PX)?)
 }

@@ -24,7 +24,7 @@ pub(super) fn caption(record: &DriveRecord) -> String {
         parts.push(format!("{distance_m:.3} m from agents"));
     }
     parts.push(counted(record.n_stops, "stop"));
-    parts.join("   ")
+    parts.join(", ")
 }
 
 /// The record for people.
