@@ -81,7 +81,6 @@ fn gain(variance: &mut f64, noise: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::normal;
     use formicar::Seed;
     use formicar::tracking::{ActuatedVehicle, DriveCommand};
 
@@ -114,9 +113,9 @@ mod tests {
             }
             let truth = vehicle.state();
             let measured = Pose2::new(
-                truth.pose.x + 0.02 * normal(&mut random),
-                truth.pose.y + 0.02 * normal(&mut random),
-                truth.pose.heading + 0.017 * normal(&mut random),
+                truth.pose.x + 0.02 * random.normal(),
+                truth.pose.y + 0.02 * random.normal(),
+                truth.pose.heading + 0.017 * random.normal(),
             );
             let pose = filter.update(measured, truth, &limits(), 0.02);
             if step > 50 {

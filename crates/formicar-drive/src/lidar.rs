@@ -1,7 +1,6 @@
 //! A planar lidar: exact ranges, then noise, dropouts and the robot's own body.
 
 use crate::error::{SetupError, in_range};
-use crate::random::normal;
 use crate::solid::Solid;
 use crate::world::World;
 use formicar::numeric::RandomStream;
@@ -128,7 +127,7 @@ impl LidarConfig {
         let (first_angle_rad, angle_step_rad) = self.angles();
         let (mut ranges, on_agent) = self.exact(world, agents, sensor);
         for (beam, range) in ranges.iter_mut().enumerate() {
-            let (noise, luck) = (normal(random), random.unit());
+            let (noise, luck) = (random.normal(), random.unit());
             let angle_rad = first_angle_rad + angle_step_rad * beam as f64;
             *range = self.reported_m(*range, angle_rad, (noise, luck));
         }

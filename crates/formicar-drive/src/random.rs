@@ -2,7 +2,6 @@
 
 use formicar::Seed;
 use formicar::numeric::RandomStream;
-use std::f64::consts::TAU;
 
 /// What random numbers are drawn for.
 #[derive(Clone, Copy)]
@@ -17,10 +16,4 @@ pub(crate) enum Draw {
 pub(crate) fn stream(seed: Seed, draw: Draw, place: [u64; 2]) -> RandomStream {
     let [a, b] = place;
     seed.stream([(draw as u64) << 48 | a, b])
-}
-
-/// A standard normal variable (Box and Muller 1958).
-pub(crate) fn normal(random: &mut RandomStream) -> f64 {
-    let radius = (-2.0 * (1.0 - random.unit()).ln()).sqrt();
-    radius * (TAU * random.unit()).cos()
 }

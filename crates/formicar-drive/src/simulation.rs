@@ -5,7 +5,7 @@ use crate::contact::{Contact, Contacted, Other, closing_mps, contact, encounter,
 use crate::error::{SetupError, in_range};
 use crate::lidar::{LidarConfig, Sweep};
 use crate::limits::drive_limits;
-use crate::random::{Draw, normal, stream};
+use crate::random::{Draw, stream};
 use crate::solid::{Nearness, Solid};
 use crate::world::World;
 use formicar::collision::{Body, Drive};
@@ -198,9 +198,9 @@ impl Simulation {
         let t_s = self.t_s();
         let sweep = (t_s >= self.next_scan_s - SAME_S).then(|| self.sweep());
         let mut random = stream(self.config.seed, Draw::Pose, [0, self.n_steps]);
-        let mut noise = || self.config.position_noise_m * normal(&mut random);
+        let mut noise = || self.config.position_noise_m * random.normal();
         let (x, y) = (state.pose.x + noise(), state.pose.y + noise());
-        let turn_rad = self.config.heading_noise_rad * normal(&mut random);
+        let turn_rad = self.config.heading_noise_rad * random.normal();
         Observation {
             t_s,
             pose: Pose2::new(x, y, state.pose.heading + turn_rad).wrapped(),

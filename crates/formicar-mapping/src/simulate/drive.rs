@@ -5,7 +5,7 @@ use crate::log::Log;
 use crate::scan::LaserScan;
 use formicar::numeric::RandomStream;
 use formicar::{Point2, Pose2, Seed};
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Sensor, odometry and people of a drive.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -193,7 +193,7 @@ fn scan(
         let is_person = person < wall.unwrap_or(f64::INFINITY);
         on_person.push(is_person);
         let range = if is_person { Some(person) } else { wall };
-        let noise = normal(random);
+        let noise = random.normal();
         ranges_m.push(range.map_or(NO_RETURN_M, |range| {
             let (base, slope) = rule.range_noise;
             let measured = range + noise * (base + slope * range);
@@ -218,12 +218,6 @@ fn disc_range(from: Point2, along: Point2, center: Point2) -> Option<f64> {
     (depth > 0.0 && ahead > PERSON_M).then(|| ahead - depth.sqrt())
 }
 
-/// A standard normal variable, by Box and Muller.
-fn normal(random: &mut RandomStream) -> f64 {
-    let radius = (-2.0 * (1.0 - random.unit()).ln()).sqrt();
-    radius * (TAU * random.unit()).cos()
-}
-
 /// Dead reckoning: true motions with noise, and a bias that a drive keeps.
 fn odometry(poses: &[Pose2], rule: &DriveRule) -> Vec<Pose2> {
     let mut bias = rule.seed.stream([4, 0]);
@@ -242,9 +236,9 @@ fn odometry(poses: &[Pose2], rule: &DriveRule) -> Vec<Pose2> {
             _ => 1.0,
         };
         let noisy = Pose2::new(
-            sign * motion.x * (1.0 + length_bias) + sigma_m * normal(&mut random),
-            motion.y + sigma_m * normal(&mut random),
-            motion.heading + turn_bias + sigma_rad * normal(&mut random),
+            sign * motion.x * (1.0 + length_bias) + sigma_m * random.normal(),
+            motion.y + sigma_m * random.normal(),
+            motion.heading + turn_bias + sigma_rad * random.normal(),
         );
         sum = sum.compose(noisy).wrapped();
         out.push(sum);

@@ -47,6 +47,12 @@ impl RandomStream {
         low + (high - low) * self.unit()
     }
 
+    /// A standard normal variable (Box and Muller 1958).
+    pub fn normal(&mut self) -> f64 {
+        let radius = (-2.0 * (1.0 - self.unit()).ln()).sqrt();
+        radius * (std::f64::consts::TAU * self.unit()).cos()
+    }
+
     /// Uniform in `0..n`; 0 where `n` is 0. The bias is below `n / 2^64`.
     pub fn below(&mut self, n: usize) -> usize {
         ((u128::from(self.next_u64()) * n as u128) >> 64) as usize
@@ -87,6 +93,16 @@ mod tests {
             bins.iter().all(|&n| (9_500..10_500).contains(&n)),
             "{bins:?}"
         );
+    }
+
+    #[test]
+    fn normal_variables_have_mean_0_and_variance_1() {
+        let mut stream = Seed(3).stream([0, 0]);
+        let values: Vec<f64> = (0..20_000).map(|_| stream.normal()).collect();
+        let mean = |of: fn(f64) -> f64| values.iter().map(|&v| of(v)).sum::<f64>() / 20_000.0;
+        assert!(mean(|v| v).abs() < 0.03, "{}", mean(|v| v));
+        assert!((mean(|v| v * v) - 1.0).abs() < 0.05);
+        assert!((mean(|v| v.powi(4)) - 3.0).abs() < 0.3);
     }
 
     #[test]
